@@ -1,0 +1,18 @@
+/* sphode.h -- smoothed particle hydrodynamics as a system of ordinary differential equations. */
+#ifndef SPHODE_H
+#define SPHODE_H
+#include <math.h>
+
+#include "sphode/base.h"
+#include "sphode/boundary.h"
+#include "sphode/case.h"
+#include "sphode/eos.h"
+#include "sphode/field.h"
+#include "sphode/group.h"
+#include "sphode/integrator.h"
+#include "sphode/kernel.h"
+#include "sphode/neighbors.h"
+#include "sphode/output.h"
+#include "sphode/sim.h"
+#include "sphode/term.h"
+#endif

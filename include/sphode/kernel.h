@@ -1,0 +1,40 @@
+/* sphode/kernel.h -- smoothing kernels W(r, h) and their derivatives; equations.md section 1.
+ *
+ *   W = (sigma_d/h^d) w(q),  q = r/h,  W = 0 for q >= kappa;  all kernels integrate to 1. */
+#ifndef SPHODE_KERNEL_H
+#define SPHODE_KERNEL_H
+#include "sphode/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct sph_kernel sph_kernel; /* one row of kernels.def; never freed */
+
+/* The kernel of that name ("wendland-c2", "cubic-spline"), or NULL. */
+SPH_API const sph_kernel *sph_kernel_find(const char *name);
+/* Kernel number k = 0, 1, ... or NULL behind the last. */
+SPH_API const sph_kernel *sph_kernel_get(int k);
+SPH_API const char *sph_kernel_name(const sph_kernel *kernel);
+SPH_API const char *sph_kernel_formula(const sph_kernel *kernel,
+                                       int dim);                     /* one line, for people */
+SPH_API const char *sph_kernel_smoothness(const sph_kernel *kernel); /* "C2" */
+SPH_API double sph_kernel_support(const sph_kernel *kernel);        /* kappa = support radius / h */
+SPH_API double sph_kernel_sigma(const sph_kernel *kernel, int dim); /* sigma_d */
+SPH_API double sph_kernel_h_over_dx(const sph_kernel *kernel);      /* recommended h/dx */
+
+/* All with dim = 1, 2, 3, r >= 0 [m], h > 0 [m]; NaN for a bad dim or h <= 0. */
+SPH_API double sph_kernel_w(const sph_kernel *kernel, int dim, double r, double h); /* W [m^-d] */
+SPH_API double sph_kernel_dwdr(const sph_kernel *kernel, int dim, double r,
+                               double h); /* dW/dr [m^-(d+1)] */
+SPH_API double sph_kernel_f(const sph_kernel *kernel, int dim, double r,
+                            double h); /* F = (dW/dr)/r [m^-(d+2)] */
+SPH_API double sph_kernel_laplacian(const sph_kernel *kernel, int dim, double r,
+                                    double h); /* [m^-(d+2)] */
+SPH_API double sph_kernel_dwdh(const sph_kernel *kernel, int dim, double r,
+                               double h); /* dW/dh [m^-(d+1)] */
+
+#ifdef __cplusplus
+}
+#endif
+#endif

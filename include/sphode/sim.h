@@ -1,0 +1,91 @@
+/* sphode/sim.h -- a simulation: owns everything attached to it, evaluates the right-hand side, runs.
+ *
+ * The first error sticks: setters return nothing, later calls do nothing, sph_sim_run returns it, sph_sim_error tells
+ * it.  A NULL simulation flows through.  Calls on one simulation must not overlap; two simulations may run in two
+ * threads. */
+#ifndef SPHODE_SIM_H
+#define SPHODE_SIM_H
+#include "sphode/base.h"
+#include "sphode/group.h"
+#include "sphode/integrator.h"
+#include "sphode/output.h"
+#include "sphode/term.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct sph_sim_def {
+  int dim;            /* 1, 2, 3 */
+  double dx;          /* particle spacing [m], > 0 */
+  const char *kernel; /* NULL: "wendland-c2" */
+  double h_over_dx;   /* smoothing length / dx; 0: the kernel's recommended value */
+  int threads;        /* 0: 1 */
+  int periodic[3];    /* direction is periodic */
+  double origin[3];   /* lower corner of the periodic box [m] */
+  double length[3];   /* its lengths [m] */
+  double speed; /* reference speed V for error weights [m/s]; 0: max(sqrt(g height), 0.01 c0) */
+  double skin;  /* of the neighbour lists, in h; < 0: none; 0: 0.15 */
+  const char *neighbors; /* NULL: "blocks"; "brute-force": the reference */
+  const char *isa; /* NULL: what the CPU has (or SPHODE_ISA); "reference": one lane, plain loops */
+} sph_sim_def;
+
+SPH_API sph_sim *sph_sim_create(const sph_sim_def *def);
+SPH_API void sph_sim_free(sph_sim *sim);
+SPH_API const char *sph_sim_error(const sph_sim *sim); /* "" without one; NULL sim: out of memory */
+SPH_API int sph_sim_status(const sph_sim *sim);
+/* Records a failure in the simulation (for code built on it); the first one sticks. */
+SPH_API int sph_sim_fail(sph_sim *sim, int status, const char *format, ...) SPH_PRINTF(3, 4);
+
+SPH_API void sph_sim_add_term(sph_sim *sim, sph_term term);
+SPH_API void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def); /* copied */
+SPH_API void sph_sim_add_output(sph_sim *sim, sph_output output);
+/* Called after every accepted step; a return != 0 stops the run with SPH_ERR_STOPPED, outputs closed. */
+SPH_API void sph_sim_set_progress(sph_sim *sim, int (*progress)(void *ctx, sph_sim *sim),
+                                  void *ctx);
+
+/* Runs to time t_end [s], writing outputs; or one step.  Returns a status. */
+SPH_API int sph_sim_run(sph_sim *sim, double t_end);
+SPH_API int sph_sim_step(sph_sim *sim);
+/* Fields were written between steps: the integrator starts anew from them. */
+SPH_API void sph_sim_changed(sph_sim *sim);
+/* Evaluates the right-hand side of the present state: pressure, sound speed, walls, rates (sph_group_rate). */
+SPH_API int sph_sim_evaluate(sph_sim *sim);
+
+SPH_API double sph_sim_time(const sph_sim *sim); /* of the state shown [s] */
+SPH_API int sph_sim_dim(const sph_sim *sim);
+SPH_API double sph_sim_dx(const sph_sim *sim);
+SPH_API double sph_sim_h(const sph_sim *sim);
+SPH_API const char *sph_sim_kernel(const sph_sim *sim);
+SPH_API const char *sph_sim_isa(const sph_sim *sim);
+SPH_API const char *sph_sim_integrator(const sph_sim *sim);
+SPH_API int sph_sim_threads(const sph_sim *sim);
+SPH_API sph_group *sph_sim_group(const sph_sim *sim, const char *name); /* NULL: no such group */
+SPH_API sph_group *sph_sim_group_get(const sph_sim *sim, int k);        /* NULL behind the last */
+SPH_API long
+sph_sim_revision(const sph_sim *sim); /* rises when particles move house: pointers end */
+
+/* Conserved quantities of the fluids in the state shown. */
+typedef struct sph_balance {
+  double mass;                         /* [kg/m^(3-dim)], likewise below */
+  double momentum[3];                  /* sum m v */
+  double angular_momentum[3];          /* sum m x cross v */
+  double kinetic, internal, potential; /* [J]; internal: thermal or elastic */
+  double total;
+} sph_balance;
+SPH_API void sph_sim_balance(const sph_sim *sim, sph_balance *balance);
+
+typedef struct sph_sim_stats {
+  sph_step_stats step;
+  double
+      pairs; /* directed pairs inside the support, summed over right-hand sides (estimated from each list) */
+  double seconds; /* wall time inside sph_sim_run and sph_sim_step */
+  long list_builds;
+  double bytes; /* memory held */
+} sph_sim_stats;
+SPH_API void sph_sim_get_stats(const sph_sim *sim, sph_sim_stats *stats);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

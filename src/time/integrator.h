@@ -1,0 +1,31 @@
+/* integrator.h -- one time integrator at work: steps a problem from stop to stop.
+ *
+ * The caller owns y; between steps it may change it and must then call sph_integrator_reset. */
+#ifndef SPH_INTEGRATOR_INTERNAL_H
+#define SPH_INTEGRATOR_INTERNAL_H
+#include "problem.h"
+#include "sphode/integrator.h"
+
+typedef struct sph_integrator sph_integrator;
+
+/* The definition is checked (unknown method: the known ones; bad values) and copied.  y: the start, cloned from,
+ * borrowed until free; after each step it holds the state at sph_integrator_time. */
+sph_integrator *sph_integrator_create(const sph_integrator_def *def, const sph_problem *problem,
+                                      double t, N_Vector y, SUNContext context, sph_error *error);
+void sph_integrator_free(sph_integrator *integrator);
+
+/* One accepted step, never past t_stop, and exactly on it if it would come within rounding of it.
+ * 0 or a failure (recorded in the problem's error; y is then the last good state). */
+int sph_integrator_step(sph_integrator *integrator, double t_stop);
+double sph_integrator_time(const sph_integrator *integrator);
+/* The time before the last step: interpolation covers [previous, time]. */
+double sph_integrator_previous(const sph_integrator *integrator);
+/* Dense output inside the last step: cubic Hermite or ARKODE's. */
+int sph_integrator_interpolate(sph_integrator *integrator, double t, N_Vector at);
+/* y (or the right-hand side) changed under the integrator. */
+int sph_integrator_reset(sph_integrator *integrator, double t);
+const sph_step_stats *sph_integrator_stats(const sph_integrator *integrator);
+/* What bound the last accepted step: enum sph_bound. */
+int sph_integrator_bound(const sph_integrator *integrator);
+
+#endif
