@@ -1,0 +1,109 @@
+/* Kernels, one r at a time: the same shapes as in the pair loops, in one lane. */
+#define SPH_LANES 1
+#include "sphode/kernel.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "sphode/kernel_shape.h"
+
+struct sph_kernel {
+  int number; /* its place in the table */
+  const char *name;
+  double support;
+  const char *smoothness;
+  double h_over_dx;
+  double sigma[3];        /* [dim - 1] */
+  const char *formula[3]; /* [dim - 1] */
+};
+
+static const sph_kernel table[] = {
+#define X(number, name, support, smoothness, h_over_dx, s1, s2, s3, f1, f2, f3) \
+  [number] = {number, name, support, smoothness, h_over_dx, {s1, s2, s3}, {f1, f2, f3}},
+#include "kernels.def"
+#undef X
+};
+_Static_assert(sizeof table / sizeof table[0] == SPH_KERNELS,
+               "a row of kernels.def for each kernel");
+
+const sph_kernel *sph_kernel_find(const char *name)
+{
+  for (int k = 0; name && k < SPH_KERNELS; k++)
+    if (!strcmp(name, table[k].name)) return &table[k];
+  return NULL;
+}
+
+const sph_kernel *sph_kernel_get(int k) { return k >= 0 && k < SPH_KERNELS ? &table[k] : NULL; }
+
+static int usable(const sph_kernel *kernel, int dim) { return kernel && dim >= 1 && dim <= 3; }
+
+const char *sph_kernel_name(const sph_kernel *kernel) { return kernel ? kernel->name : NULL; }
+const char *sph_kernel_formula(const sph_kernel *kernel, int dim)
+{
+  return usable(kernel, dim) ? kernel->formula[dim - 1] : NULL;
+}
+const char *sph_kernel_smoothness(const sph_kernel *kernel)
+{
+  return kernel ? kernel->smoothness : NULL;
+}
+double sph_kernel_support(const sph_kernel *kernel) { return kernel ? kernel->support : NAN; }
+double sph_kernel_sigma(const sph_kernel *kernel, int dim)
+{
+  return usable(kernel, dim) ? kernel->sigma[dim - 1] : NAN;
+}
+double sph_kernel_h_over_dx(const sph_kernel *kernel) { return kernel ? kernel->h_over_dx : NAN; }
+
+/* sigma_d/h^(d + more); NaN for what is not usable. */
+static double scale(const sph_kernel *kernel, int dim, double h, int more)
+{
+  if (!usable(kernel, dim) || !(h > 0)) return NAN;
+  double power = 1;
+  for (int k = 0; k < dim + more; k++) power *= h;
+  return kernel->sigma[dim - 1] / power;
+}
+
+/* kernel == NULL: scale() is NaN, whatever the shape. */
+static int number(const sph_kernel *kernel) { return kernel ? kernel->number : 0; }
+
+static double shape_w(const sph_kernel *kernel, int dim, double q)
+{
+  return kernel_shape_w(number(kernel), dim, v_set(q))[0];
+}
+static double shape_f(const sph_kernel *kernel, int dim, double q)
+{
+  return kernel_shape_f(number(kernel), dim, v_set(q))[0];
+}
+static double shape_laplacian(const sph_kernel *kernel, int dim, double q)
+{
+  return kernel_shape_laplacian(number(kernel), dim, v_set(q))[0];
+}
+
+double sph_kernel_w(const sph_kernel *kernel, int dim, double r, double h)
+{
+  return scale(kernel, dim, h, 0) * shape_w(kernel, dim, r / h);
+}
+
+double sph_kernel_dwdr(const sph_kernel *kernel, int dim, double r, double h)
+{
+  double q = r / h;
+  return scale(kernel, dim, h, 1) * (q * shape_f(kernel, dim, q));
+}
+
+double sph_kernel_f(const sph_kernel *kernel, int dim, double r, double h)
+{
+  return scale(kernel, dim, h, 2) * shape_f(kernel, dim, r / h);
+}
+
+double sph_kernel_laplacian(const sph_kernel *kernel, int dim, double r, double h)
+{
+  return scale(kernel, dim, h, 2) * shape_laplacian(kernel, dim, r / h);
+}
+
+/* dW/dh = -(sigma_d/h^(d+1)) (d w + q w'),  w' = q f */
+double sph_kernel_dwdh(const sph_kernel *kernel, int dim, double r, double h)
+{
+  double q = r / h;
+  double shape = dim * shape_w(kernel, dim, q) + q * (q * shape_f(kernel, dim, q));
+  return -scale(kernel, dim, h, 1) * shape;
+}
