@@ -1,13 +1,16 @@
-/* sphode/kernel_shape.h -- the shapes of the kernels, once, for every use: pair loops (vectors), kernel.h (one lane).
+/* sphode/kernel_shape.h -- the shapes of the kernels, once, for every use: pair loops (vectors),
+ * kernel.h (one lane).
  *
  *   W = (sigma_d/h^d) w(q),  F = W'/r = (sigma_d/h^(d+2)) f(q),  f = w'/q,  q = r/h >= 0
  *   laplacian = (sigma_d/h^(d+2)) l(q),  l = w'' + (d - 1) f
  *
- * The three functions at the end take kernel and dim as constants and compile to the formulas alone.  They are finite
- * at q = 0 and zero for q >= kappa, without branches: a loop needs no test of the distance.  f never divides by q,
- * and is a sum of terms of one sign: it does not change sign by rounding at the edge of the support.
+ * The three functions at the end take kernel and dim as constants and compile to the formulas
+ * alone.  They are finite at q = 0 and zero for q >= kappa, without branches: a loop needs no
+ * test of the distance.  f never divides by q, and is a sum of terms of one sign: it does not
+ * change sign by rounding at the edge of the support.
  *
- * A new kernel: its three shapes here and its lines in the two lists; its facts in one row of kernels.def. */
+ * A new kernel: its three shapes here and its lines in the two lists; its facts in one row of
+ * kernels.def. */
 #ifndef SPHODE_KERNEL_SHAPE_H
 #define SPHODE_KERNEL_SHAPE_H
 #include "sphode/simd.h"
@@ -29,7 +32,8 @@ enum sph_kernel_number { /* that of sph_kernel_get */
                              SPH_KERNELS
 };
 
-/* Wendland (1995), C2: w = t^3 (1 + 3q/2) in 1D, t^4 (1 + 2q) in 2D and 3D, t = 1 - q/2, kappa = 2. */
+/* Wendland (1995), C2: w = t^3 (1 + 3q/2) in 1D, t^4 (1 + 2q) in 2D and 3D, t = 1 - q/2, kappa =
+ * 2. */
 BODY vec kernel_wendland_c2_w(int dim, vec q)
 {
   vec t = v_max0(1 - 0.5 * q);
@@ -47,7 +51,8 @@ BODY vec kernel_wendland_c2_laplacian(int dim, vec q)
   return dim == 2 ? 2.5 * t * t * (5 * q - 4) : 15 * t * t * (q - 1);
 }
 
-/* Cubic B-spline M4 (Monaghan & Lattanzio 1985): w = (s^3 - 4 u^3)/4, s = (2 - q)+, u = (1 - q)+, kappa = 2. */
+/* Cubic B-spline M4 (Monaghan & Lattanzio 1985): w = (s^3 - 4 u^3)/4, s = (2 - q)+, u = (1 - q)+,
+ * kappa = 2. */
 BODY vec kernel_cubic_spline_w(int dim, vec q)
 {
   (void)dim;

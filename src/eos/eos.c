@@ -1,0 +1,74 @@
+#include "sphode/eos.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "eos_table.h"
+
+static const struct {
+  const char *name, *formula;
+  int (*check)(const sph_eos *eos, sph_error *error);
+} table[] = {
+    {"tait",
+     "p = B [(rho/rho0)^gamma - 1] + p_b, B = rho0 c0^2/gamma, c = c0 (rho/rho0)^((gamma-1)/2)",
+     sph_eos_tait_check},
+    {"linear", "p = max(c0^2 (rho - rho0) + p_b, p_min), c = c0, 0 on the cut",
+     sph_eos_linear_check},
+    {"ideal-gas", "p = (gamma - 1) rho u, c^2 = gamma (gamma - 1) u", sph_eos_ideal_gas_check},
+};
+enum { ROWS = sizeof table / sizeof table[0] };
+
+static int row(const char *name)
+{
+  for (int k = 0; name && k < ROWS; k++)
+    if (!strcmp(name, table[k].name)) return k;
+  return -1;
+}
+
+const char *sph_eos_name(int k) { return k >= 0 && k < ROWS ? table[k].name : NULL; }
+
+const char *sph_eos_formula(const char *name)
+{
+  int k = row(name);
+  return k < 0 ? NULL : table[k].formula;
+}
+
+static int check_positive(const sph_eos *eos, const char *what, double value, const char *unit,
+                          sph_error *error)
+{
+  if (value > 0 && isfinite(value)) return SPH_OK;
+  return sph_error_set(error, SPH_ERR_ARGUMENT, "eos %s: %s = %g %s must be positive and finite",
+                       eos->name, what, value, unit);
+}
+
+/* Barotropic: walls and starts need rho(p), step limits and error weights c0 at rho0. */
+static int check_barotropic(const sph_eos *eos, sph_error *error)
+{
+  int status = check_positive(eos, "rho0", eos->rho0, "kg/m^3", error);
+  if (!status) status = check_positive(eos, "c0", eos->c0, "m/s", error);
+  if (!status && !isfinite(eos->p_background))
+    status = sph_error_set(error, SPH_ERR_ARGUMENT, "eos %s: p_background = %g Pa must be finite",
+                           eos->name, eos->p_background);
+  return status;
+}
+
+int sph_eos_check(const sph_eos *eos, sph_error *error)
+{
+  if (!eos || !eos->name || !eos->name[0])
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "eos: has no name; the built-in ones come from "
+                         "sph_eos_tait, sph_eos_linear, sph_eos_ideal_gas");
+  if (!eos->pressure || !eos->density)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "eos %s: function %s is NULL; it is required",
+                         eos->name, eos->pressure ? "density" : "pressure");
+  if (eos->thermal != 0 && eos->thermal != 1)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "eos %s: thermal = %d must be 0 or 1", eos->name,
+                         eos->thermal);
+  if (isnan(eos->p_min) || eos->p_min == INFINITY)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "eos %s: p_min = %g Pa must be a pressure, or -INFINITY for no cut-off",
+                         eos->name, eos->p_min);
+  int status = eos->thermal ? SPH_OK : check_barotropic(eos, error), k = row(eos->name);
+  return status || k < 0 ? status : table[k].check(eos, error);
+}

@@ -1,0 +1,34 @@
+/* What the power laws share (Cole 1948; gamma = 1: linear).  With e = rho/rho0 - 1, B = rho0
+ * c0^2/gamma:
+ *
+ *   p     = B [(1 + e)^gamma - 1] + p_b, cut: max(p, p_min)
+ *   rho   = rho0 [1 + (p - p_b)/B]^(1/gamma)
+ *   u_el  = int p/rho^2 drho from rho0
+ *         = (c0^2/gamma) { [(1 + e)^(gamma-1) - 1]/(gamma - 1) - e/(1 + e) } + (p_b/rho0) e/(1 + e)
+ *
+ * Weakly compressible: e is 1e-2 and smaller, so powers go through log1p and expm1 of e. */
+#include <math.h>
+
+#include "eos_table.h"
+
+double sph_eos_power_density(const sph_eos *eos, double gamma, double p)
+{
+  double B = eos->rho0 * eos->c0 * eos->c0 / gamma, held = p < eos->p_min ? eos->p_min : p;
+  double x = (held - eos->p_background) / B;
+  return eos->rho0 * (gamma == 1 ? 1 + x : exp(log1p(x) / gamma));
+}
+
+static double uncut_energy(const sph_eos *eos, double gamma, double rho)
+{
+  double e = (rho - eos->rho0) / eos->rho0, work = e / (1 + e), log_x = log1p(e);
+  double power = gamma == 1 ? log_x : expm1((gamma - 1) * log_x) / (gamma - 1);
+  return eos->c0 * eos->c0 / gamma * (power - work) + eos->p_background / eos->rho0 * work;
+}
+
+/* On the cut the pressure is p_min from rho_cut on. */
+double sph_eos_power_elastic_energy(const sph_eos *eos, double gamma, double rho)
+{
+  double rho_cut = eos->p_min > -INFINITY ? sph_eos_power_density(eos, gamma, eos->p_min) : 0;
+  if (!(rho < rho_cut)) return uncut_energy(eos, gamma, rho);
+  return uncut_energy(eos, gamma, rho_cut) + eos->p_min * (1 / rho_cut - 1 / rho);
+}

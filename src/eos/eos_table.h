@@ -1,0 +1,23 @@
+/* eos_table.h -- the built-in equations of state, and the check of any one where it is attached.
+ *
+ * Built-in ones are known by their names: a user's own with such a name is checked as the
+ * built-in one. */
+#ifndef SPH_EOS_TABLE_H
+#define SPH_EOS_TABLE_H
+#include "sphode/eos.h"
+
+/* Refuses what could not be run: SPH_ERR_ARGUMENT with the member, its value and what would be
+ * right. */
+int sph_eos_check(const sph_eos *eos, sph_error *error);
+
+/* What the built-in ones ask for beyond that. */
+int sph_eos_tait_check(const sph_eos *eos, sph_error *error);
+int sph_eos_linear_check(const sph_eos *eos, sph_error *error);
+int sph_eos_ideal_gas_check(const sph_eos *eos, sph_error *error);
+
+/* Power law p - p_b = (rho0 c0^2/gamma) [(rho/rho0)^gamma - 1], gamma >= 1; the linear one is
+ * gamma = 1. */
+double sph_eos_power_density(const sph_eos *eos, double gamma, double p);          /* [kg/m^3] */
+double sph_eos_power_elastic_energy(const sph_eos *eos, double gamma, double rho); /* [J/kg] */
+
+#endif
