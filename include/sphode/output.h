@@ -1,9 +1,14 @@
-/* sphode/output.h -- what is written while a simulation runs.
+/* sphode/output.h -- what is written while a simulation runs, and what is made of it afterwards.
  *
- * A built-in output and a user's own are the same struct.  While a callback runs, the simulation shows the state at
- * sph_sim_time(sim): dense output, so that no frame shortens a step. */
+ * A built-in output and a user's own are the same struct.  While a callback runs, the simulation
+ * shows the state at sph_sim_time(sim): dense output, so that no frame shortens a step.
+ *
+ * Every file but the growing time series is written under a temporary name (.tmp), synchronised
+ * and renamed: a killed run or a full disk leaves whole files only. */
 #ifndef SPHODE_OUTPUT_H
 #define SPHODE_OUTPUT_H
+#include <stddef.h>
+
 #include "sphode/base.h"
 
 #ifdef __cplusplus
@@ -11,11 +16,11 @@ extern "C" {
 #endif
 
 struct sph_sim;
+struct sph_balance; /* sphode/sim.h */
 
 typedef struct sph_output {
   const char *name;
-  double
-      interval; /* [s] between frames, from the start; 0: every step; INFINITY: start and end only */
+  double interval; /* [s] between frames, from the start; 0: every step; INFINITY: start and end */
   /* Each returns 0 or < 0 with the reason in error.  open: before the first frame; NULL is fine. */
   int (*open)(void *ctx, struct sph_sim *sim, sph_error *error);
   int (*frame)(void *ctx, struct sph_sim *sim, sph_error *error);
@@ -24,6 +29,116 @@ typedef struct sph_output {
   void *ctx;
   void (*free)(void *ctx); /* called once */
 } sph_output;
+
+/* ---- snapshots -------------------------------------------------------------------------------
+ * directory/snapshot_0000.hdf, ...: HDF5, one file a frame; the directory is made.
+ *   /Header /PartType0 (fluids, group after group) /PartType1 (walls): as GADGET's; SI units
+ *   /VTKHDF    the fluids for ParaView: hard links to the data of /PartType0
+ *   /Groups    names and kinds; the dataset "Group" of a particle counts them from 0
+ *   /Code /Parameters /Units   where the numbers come from
+ * walls_0000.hdf: the walls for ParaView, a link into the snapshot.  ParaView opens
+ * snapshot.hdf.series and walls.hdf.series, which know the times. */
+typedef struct sph_hdf5_def {
+  const char *directory;
+  double interval;       /* [s]; see sph_output */
+  const char *case_text; /* kept word for word in /Parameters; NULL: none */
+  const char *command;   /* the command line, kept in /Code; NULL: none */
+} sph_hdf5_def;
+
+SPH_API sph_output sph_output_hdf5(const char *directory, double interval);
+SPH_API sph_output sph_output_hdf5_def(const sph_hdf5_def *def); /* strings are copied */
+
+/* ---- time series -----------------------------------------------------------------------------
+ * directory/series.csv: a line with the names and units of the columns, "front [m]", then a row a
+ * frame, in the file before the run goes on.  Columns: time, step, dt, kinetic, potential,
+ * internal, total, momentum_x ..., angular_momentum_z ..., and one for each monitor.
+ *
+ * Monitors look at one fluid group or at all fluids; periodic images are not seen.
+ *   front      largest coordinate along `axis` of a particle with >= 3 neighbours within 2 dx,
+ *              + dx/2: spray does not count; NaN where there is none [m]
+ *   height     the same along the last direction (y in 2D, z in 3D) [m]
+ *   pressure   at x: sum V p W / sum V W, and 0 where sum V W < 0.15 (dry: an immersed point has
+ *              1, a point on an immersed wall 1/2) [Pa].  With an extent: the mean over the
+ *              ellipsoid (disc, segment) with these half lengths, sampled every dx or finer
+ *   semi-axis  sqrt((dim + 2) <(x - <x>)^2>) along `axis`: of an ellipse or ellipsoid [m] */
+typedef struct sph_monitor {
+  const char *name;  /* of the column: [A-Za-z0-9_.-], at most 63 */
+  const char *type;  /* "front", "height", "pressure", "semi-axis" */
+  const char *group; /* NULL: all fluids */
+  int axis;          /* 0, 1, 2 */
+  double x[3];       /* [m] */
+  double extent[3];  /* half lengths [m]; all 0: a point */
+} sph_monitor;
+
+SPH_API const char *sph_monitor_type(int k);            /* NULL behind the last */
+SPH_API const char *sph_monitor_unit(const char *type); /* "m", "Pa"; NULL: unknown type */
+/* Its value in the state that the simulation shows. */
+SPH_API int sph_monitor_value(const sph_monitor *monitor, struct sph_sim *sim, double *value,
+                              sph_error *error);
+
+SPH_API sph_output sph_output_series(const char *directory, double interval,
+                                     const sph_monitor *monitors, int n); /* copied */
+
+/* ---- summary ---------------------------------------------------------------------------------*/
+/* A measured distance from something outside the code. */
+typedef struct sph_comparison {
+  const char *name;      /* "front, a = 2.25 in" */
+  const char *reference; /* "Martin & Moyce (1952)" */
+  const char *quantity;  /* "front" */
+  const char *norm;      /* "rms", "l1", ... */
+  double value;          /* the distance */
+  double bar;            /* value <= bar passes; NaN: reported, not judged */
+  int pass;              /* read where bar is a number */
+  const char *note;      /* "offset 0.31; 0.045 without"; NULL: none */
+} sph_comparison;
+
+/* directory/summary.json and summary.txt, after a run (also a failed one).  start: sph_sim_balance
+ * at the start, for the drifts; NULL: none are told. */
+SPH_API int sph_summary_write(const char *directory, struct sph_sim *sim,
+                              const struct sph_balance *start, const sph_comparison *comparison,
+                              int n, sph_error *error);
+/* The same for people.  As snprintf: fills at most size bytes, returns the length needed. */
+SPH_API int sph_summary_text(char *buffer, size_t size, struct sph_sim *sim,
+                             const struct sph_balance *start, const sph_comparison *comparison,
+                             int n);
+
+/* ---- pictures --------------------------------------------------------------------------------
+ * Drawn by gnuplot (SPH_ERR_UNBUILT, with what to install, where there is none).  Beside x.png stay
+ * x.gp and x.dat, the script and its data: edit the script, run `gnuplot x.gp`. */
+
+/* Particles coloured by a field ("pressure", "velocity": its magnitude, "velocity_x", "density",
+ * "energy", ...; NULL: "velocity"), walls grey, axes equal.  path: a snapshot, or a directory (its
+ * last one).  3D: a slice through the middle of the fluid's thinner horizontal direction.
+ * 1D: the field over x. */
+SPH_API int sph_plot_particles(const char *path, const char *field, const char *png,
+                               sph_error *error);
+/* n snapshots of a directory, evenly from the first to the last, one above the other, one colour
+ * scale. */
+SPH_API int sph_plot_frames(const char *directory, const char *field, int n, const char *png,
+                            sph_error *error);
+/* Snapshots in a directory; < 0: a status. */
+SPH_API int sph_plot_count(const char *directory, sph_error *error);
+
+/* A curve: two columns of a CSV file (comma separated, lines with # are comments, one header line
+ * where a unit in brackets is not part of the name).
+ * Drawn: ((x - x_offset)/x_scale, y/y_scale). */
+typedef struct sph_plot_curve {
+  const char *csv;
+  const char *x, *y;       /* column names; x NULL: the first, y NULL: the second */
+  double x_scale, y_scale; /* 0: 1 */
+  double x_offset;         /* in the unit of the column */
+  const char *label;       /* in the key; NULL: the column's name */
+  int points;              /* 1: points (a reference), 0: a line */
+} sph_plot_curve;
+
+typedef struct sph_plot_def {
+  const char *title;                 /* NULL: none */
+  const char *x_label, *y_label;     /* NULL: the column's name and unit of the first curve */
+  double x_min, x_max, y_min, y_max; /* min == max: what the curves need */
+} sph_plot_def;
+
+SPH_API int sph_plot_series(const sph_plot_curve *curve, int n, const sph_plot_def *def,
+                            const char *png, sph_error *error);
 
 #ifdef __cplusplus
 }
