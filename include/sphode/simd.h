@@ -35,6 +35,12 @@ BODY vec v_load(const double *a) /* unaligned */
   memcpy(&r, a, sizeof r);
   return r;
 }
+BODY vec v_gather(const double *a, long stride) /* a[0], a[stride], a[2 stride], ... */
+{
+  vec r = {0};
+  for (int l = 0; l < SPH_LANES; l++) r[l] = a[l * stride];
+  return r;
+}
 BODY void v_store(double *to, vec a) { memcpy(to, &a, sizeof a); }
 BODY vec v_and(vec_mask m, vec a) { return (vec)(m & (vec_mask)a); }
 BODY vec v_select(vec_mask m, vec a, vec b) /* m ? a : b */

@@ -36,6 +36,7 @@ struct sph_term {
   double alpha, beta; /* artificial viscosity; alpha: artificial conductivity */
   double delta;       /* density diffusion */
   double g[3];        /* uniform body force [m/s^2] */
+  double omega;       /* harmonic body force [1/s] */
   /* A user's own (NULL in built-in pair terms): */
   int (*body)(const sph_term *term, const sph_particles *particles);      /* 0, SPH_RETRY or < 0 */
   double (*dt_max)(const sph_term *term, const sph_particles *particles); /* [s]; NULL: no limit */

@@ -8,6 +8,9 @@
 
 typedef struct sph_integrator sph_integrator;
 
+/* Is the definition right?  Else recorded: unknown method (with the known ones), bad value. */
+int sph_integrator_check(const sph_integrator_def *def, sph_error *error);
+
 /* The definition is checked (unknown method: the known ones; bad values) and copied.  y: the start, cloned from,
  * borrowed until free; after each step it holds the state at sph_integrator_time. */
 sph_integrator *sph_integrator_create(const sph_integrator_def *def, const sph_problem *problem,

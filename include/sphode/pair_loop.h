@@ -1,0 +1,67 @@
+/* sphode/pair_loop.h -- the loop over pairs, for any body: it knows no physics.
+ *
+ * Every target in a lane, every source broadcast.  A block of SPH_LANES consecutive sorted targets meets, run by run,
+ * its sources (sphode/neighbors.h).  Particles are records of doubles in sorted order; the first dim slots of a record
+ * are the position.  No atomics, colours or reductions: the sums of a target depend on the order of its sources only.
+ *
+ * Use it around your own body:
+ *
+ *   BODY void count(int dim, const void *k, const vec *i, const vec *j, vec *sum) { sum[0] += ...; }
+ *   void count_pairs(const sph_pair_task *t, long b, long e) { sph_pair_loop(count, t, b, e, 2, 2, 1); }
+ *
+ * dim, slots and sums must be constants for the loop to be fast.  A pair outside the support must add exact zeros, and
+ * so must a particle with itself. */
+#ifndef SPHODE_PAIR_LOOP_H
+#define SPHODE_PAIR_LOOP_H
+
+#include "sphode/neighbors.h"
+#include "sphode/simd.h"
+
+enum { SPH_PAIR_SLOTS = 16, SPH_PAIR_SUMS = 12 };
+
+typedef struct sph_pair_task {
+  const double *
+      target; /* [blocks * lanes][target_stride] records; those past the last target: any finite values */
+  const double *source; /* [n_source][source_stride] records */
+  long target_stride, source_stride;
+  const long *first;        /* [blocks + 1] */
+  const sph_run *runs;      /* [first[blocks]] */
+  const double (*shift)[3]; /* of the images [m] */
+  double *const *sum;       /* [sums][blocks * lanes], added to, sorted order */
+  const void *constants;    /* what the body needs besides */
+} sph_pair_task;
+
+typedef void sph_pair_function(const sph_pair_task *task, long begin, long end); /* blocks */
+
+/* Adds to sum[] what target i (a lane each) gets from source j (the same in all lanes). */
+typedef void sph_pair_body(int dim, const void *constants, const vec *i, const vec *j, vec *sum);
+
+BODY void sph_pair_loop(sph_pair_body *body, const sph_pair_task *t, long begin, long end, int dim,
+                        int slots, int sums)
+{
+  for (long b = begin; b < end; b++) {
+    if (t->first[b] == t->first[b + 1]) continue;
+    vec home[SPH_PAIR_SLOTS], sum[SPH_PAIR_SUMS];
+    const double *record = t->target + b * SPH_LANES * t->target_stride;
+#pragma GCC unroll 16
+    for (int s = 0; s < slots; s++) home[s] = v_gather(record + s, t->target_stride);
+#pragma GCC unroll 12
+    for (int s = 0; s < sums; s++) sum[s] = v_load(t->sum[s] + b * SPH_LANES);
+    for (long r = t->first[b]; r < t->first[b + 1]; r++) {
+      const sph_run run = t->runs[r];
+      vec i[SPH_PAIR_SLOTS], j[SPH_PAIR_SLOTS];
+#pragma GCC unroll 16
+      for (int s = 0; s < slots; s++) i[s] = s < dim ? home[s] - t->shift[run.image][s] : home[s];
+      const double *source = t->source + (long)run.start * t->source_stride;
+      for (int n = 0; n < (int)run.count; n++, source += t->source_stride) {
+#pragma GCC unroll 16
+        for (int s = 0; s < slots; s++) j[s] = v_set(source[s]);
+        body(dim, t->constants, i, j, sum);
+      }
+    }
+#pragma GCC unroll 12
+    for (int s = 0; s < sums; s++) v_store(t->sum[s] + b * SPH_LANES, sum[s]);
+  }
+}
+
+#endif

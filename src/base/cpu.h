@@ -1,0 +1,52 @@
+/* cpu.h -- which instances of the pair loops this processor can run. */
+#ifndef SPH_CPU_H
+#define SPH_CPU_H
+#include "config.h"
+#include "sphode/base.h"
+
+/* Suffix of the exported tables, name for people, lanes; slow to fast. */
+#define SPH_ISA_LIST(X)        \
+  X(reference, "reference", 1) \
+  X(generic, "generic", 2)     \
+  X(x86_64_v2, "x86-64-v2", 2) \
+  X(x86_64_v3, "x86-64-v3", 4) \
+  X(x86_64_v4, "x86-64-v4", 8)
+
+enum sph_isa {
+#define SPH_ISA_ENUM(suffix, name, lanes) SPH_ISA_##suffix,
+  SPH_ISA_LIST(SPH_ISA_ENUM)
+#undef SPH_ISA_ENUM
+      SPH_ISA_COUNT
+};
+
+/* Those built into this library: X(suffix). */
+#ifdef SPH_HAVE_X86_64_V2
+#define SPH_ISA_BUILT_V2(X) X(x86_64_v2)
+#else
+#define SPH_ISA_BUILT_V2(X)
+#endif
+#ifdef SPH_HAVE_X86_64_V3
+#define SPH_ISA_BUILT_V3(X) X(x86_64_v3)
+#else
+#define SPH_ISA_BUILT_V3(X)
+#endif
+#ifdef SPH_HAVE_X86_64_V4
+#define SPH_ISA_BUILT_V4(X) X(x86_64_v4)
+#else
+#define SPH_ISA_BUILT_V4(X)
+#endif
+#define SPH_ISA_BUILT(X) \
+  X(reference) X(generic) SPH_ISA_BUILT_V2(X) SPH_ISA_BUILT_V3(X) SPH_ISA_BUILT_V4(X)
+
+/* In a *_loops.c, compiled once per instruction set with SPH_ISA its suffix: the name of its table. */
+#define SPH_ISA_JOIN_(name, isa) name##_##isa
+#define SPH_ISA_JOIN(name, isa) SPH_ISA_JOIN_(name, isa)
+#define SPH_ISA_NAME(name) SPH_ISA_JOIN(name, SPH_ISA)
+
+/* Instruction set number by name; name == NULL: SPHODE_ISA of the environment, else the best of this processor.
+ * Unknown, not built or not run by this processor: -1, recorded with the names that work. */
+int sph_cpu_isa(const char *name, sph_error *error);
+const char *sph_cpu_isa_name(int isa);
+int sph_cpu_lanes(int isa);
+
+#endif

@@ -1,0 +1,15 @@
+#include "wall_loops.h"
+
+#define DECLARE(isa) extern const sph_wall_table sph_wall_loops_##isa;
+SPH_ISA_BUILT(DECLARE)
+
+static const sph_wall_table *const tables[SPH_ISA_COUNT] = {
+#define ROW(isa) [SPH_ISA_##isa] = &sph_wall_loops_##isa,
+    SPH_ISA_BUILT(ROW)
+#undef ROW
+};
+
+sph_pair_function *sph_wall_loop(int isa, int kernel, int dim, int thermal)
+{
+  return tables[isa]->loop[kernel][dim - 1][thermal];
+}

@@ -1,0 +1,12 @@
+#include "count_pair.h"
+
+#define DECLARE(isa) extern const sph_count_table sph_count_loops_##isa;
+SPH_ISA_BUILT(DECLARE)
+
+static const sph_count_table *const tables[SPH_ISA_COUNT] = {
+#define ROW(isa) [SPH_ISA_##isa] = &sph_count_loops_##isa,
+    SPH_ISA_BUILT(ROW)
+#undef ROW
+};
+
+sph_pair_function *sph_count_loop(int isa, int dim) { return tables[isa]->loop[dim - 1]; }

@@ -1,0 +1,164 @@
+#include "sphode/group.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "eos_table.h"
+#include "memory.h"
+#include "sim_run.h"
+
+static int ok(const sph_group *group) { return group && sph_sim_data_ok(group->sim); }
+
+static int good_name(const char *name)
+{
+  static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  return name && *name && strlen(name) < SPH_NAME_MAX && strspn(name, letters) == strlen(name);
+}
+
+static int check_new(sph_sim *sim, const char *name, const char *kind)
+{
+  if (!good_name(name))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "group name \"%.80s\"; right is 1 to %d of A-Z a-z 0-9 _ -",
+                        name ? name : "", SPH_NAME_MAX - 1);
+  if (sph_sim_group(sim, name))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "group %s exists already", name);
+  if (!kind || (strcmp(kind, "fluid") && strcmp(kind, "wall")))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "group %s: kind \"%s\"; known: fluid, wall", name,
+                        kind ? kind : "");
+  if (sim->prepared)
+    return sph_sim_fail(sim, SPH_ERR_STATE, "group %s: groups are added before the run", name);
+  if (sim->groups == SPH_SETS_MAX)
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "group %s: more than %d groups", name, SPH_SETS_MAX);
+  return SPH_OK;
+}
+
+sph_group *sph_group_create(sph_sim *sim, const char *name, const char *kind)
+{
+  if (!sph_sim_data_ok(sim) || check_new(sim, name, kind)) return NULL;
+  sph_group *group = SPH_NEW(sph_group, 1, "a group", &sim->error);
+  if (!group) return NULL;
+  snprintf(group->name, sizeof group->name, "%s", name);
+  group->sim = sim;
+  group->wall = !strcmp(kind, "wall");
+  group->dim = sim->dim;
+  group->index = sim->groups;
+  for (int field = 0; field < SPH_FIELDS; field++)
+    for (int c = 0; c < 3; c++) group->offset[field][c] = -1;
+  sim->group[sim->groups++] = group;
+  return group;
+}
+
+/* Before the run, and the last call found no error? */
+static int settable(sph_group *group, const char *what)
+{
+  if (!ok(group)) return 0;
+  if (!group->sim->prepared) return 1;
+  sph_sim_fail(group->sim, SPH_ERR_STATE, "group %s: %s is set before the run", group->name, what);
+  return 0;
+}
+
+void sph_group_set_eos(sph_group *group, sph_eos eos)
+{
+  if (!settable(group, "the equation of state") || sph_eos_check(&eos, &group->sim->error)) {
+    if (eos.free) eos.free(eos.ctx);
+    return;
+  }
+  if (group->eos.free) group->eos.free(group->eos.ctx);
+  snprintf(group->eos_name, sizeof group->eos_name, "%s", eos.name);
+  group->eos = eos;
+  group->eos.name = group->eos_name;
+  group->has_eos = 1;
+}
+
+void sph_group_set_boundary(sph_group *group, sph_boundary boundary)
+{
+  int kept = settable(group, "the boundary");
+  if (kept && !group->wall)
+    kept = !sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
+                         "group %s is a fluid: boundaries are for walls", group->name);
+  if (kept && (!boundary.name || !sph_boundary_formula(boundary.name)))
+    kept = !sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s: boundary \"%s\"; known: %s",
+                         group->name, boundary.name ? boundary.name : "", sph_boundary_name(0));
+  if (!kept) {
+    if (boundary.free) boundary.free(boundary.ctx);
+    return;
+  }
+  if (group->boundary.free) group->boundary.free(group->boundary.ctx);
+  group->boundary = boundary;
+  group->has_boundary = 1;
+}
+
+const char *sph_group_name(const sph_group *group) { return group ? group->name : ""; }
+
+const char *sph_group_kind(const sph_group *group)
+{
+  return !group ? "" : group->wall ? "wall" : "fluid";
+}
+
+long sph_group_count(const sph_group *group) { return group ? group->n : 0; }
+
+const sph_eos *sph_group_eos(const sph_group *group)
+{
+  return group && group->has_eos ? &group->eos : NULL;
+}
+
+int sph_group_thermal(const sph_group *group)
+{
+  return group && group->has_eos && group->eos.thermal;
+}
+
+const long *sph_group_ids(const sph_group *group) { return group ? group->id : NULL; }
+
+/* Where a component lives now; NULL: no such. */
+static double *component(const sph_group *group, const char *field, int c)
+{
+  int number = sph_field_find(field);
+  if (!group || number < 0 || c < 0 || c >= sph_group_data_components(group->dim, number))
+    return NULL;
+  const sph_sim *sim = group->sim;
+  return sph_group_data_component(group, sim->shown ? sph_nvector_data(sim->shown) : NULL, number,
+                                  c);
+}
+
+static int is_derived(const sph_group *group, const char *field)
+{
+  int number = sph_field_find(field);
+  return number == SPH_PRESSURE || number == SPH_SOUND_SPEED || (group->wall && number >= 0);
+}
+
+const double *sph_group_read(const sph_group *group, const char *field, int c)
+{
+  const double *found = component(group, field, c);
+  if (found && group->sim->prepared && is_derived(group, field)) sph_sim_run_derived(group->sim);
+  return found;
+}
+
+double *sph_group_write(sph_group *group, const char *field, int c)
+{
+  return ok(group) ? component(group, field, c) : NULL;
+}
+
+const double *sph_group_rate(const sph_group *group, const char *field, int c)
+{
+  int number = sph_field_find(field);
+  if (!ok(group) || !group->sim->prepared || number < 0 || c < 0 || c > 2) return NULL;
+  if (group->offset[number][c] < 0) return NULL;
+  return sph_nvector_data(group->sim->ydot) + group->offset[number][c];
+}
+sph_group *sph_group_box(sph_sim *sim, const char *name, const double *lo, const double *hi,
+                         double rho0)
+{
+  sph_group *group = sph_group_create(sim, name, "fluid");
+  sph_group_add_box(group, lo, hi, rho0);
+  return group;
+}
+
+sph_group *sph_group_walls(sph_sim *sim, const char *name, const double *lo, const double *hi,
+                           double rho0)
+{
+  sph_group *group = sph_group_create(sim, name, "wall");
+  sph_group_add_layers(group, lo, hi, NULL, rho0);
+  return group;
+}

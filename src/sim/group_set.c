@@ -1,0 +1,102 @@
+/* Initial density and pressure of a group. */
+#include <math.h>
+
+#include "sim_data.h"
+
+static int ready(const sph_group *group, const char *what)
+{
+  if (!group || !sph_sim_data_ok(group->sim)) return 0;
+  if (group->sim->prepared)
+    sph_sim_fail(group->sim, SPH_ERR_STATE, "group %s: %s is set before the run", group->name,
+                 what);
+  else if (!group->has_eos)
+    sph_sim_fail(group->sim, SPH_ERR_STATE, "group %s: set its equation of state before its %s",
+                 group->name, what);
+  else if (!group->eos.density)
+    sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
+                 "group %s: equation of state %s has no inverse rho(p)", group->name,
+                 group->eos.name);
+  return sph_sim_data_ok(group->sim);
+}
+
+/* Density by pressure at the present volume: mass and density change by the same factor. */
+static void set_density(sph_group *group, long i, double rho)
+{
+  group->own[SPH_MASS][0][i] *= rho / group->own[SPH_DENSITY][0][i];
+  group->own[SPH_DENSITY][0][i] = rho;
+}
+
+/* Internal energy that gives pressure p at density rho: rho(p, u) = rho, by bisection in log u. */
+static double energy_of(const sph_eos *eos, double p, double rho)
+{
+  double low = -100, high = 100; /* ln u */
+  for (int k = 0; k < 200; k++) {
+    double middle = 0.5 * (low + high);
+    if (eos->density(eos, p, exp(middle)) > rho)
+      low = middle; /* too cold */
+    else
+      high = middle;
+  }
+  return exp(0.5 * (low + high));
+}
+
+void sph_group_set_pressure(sph_group *group, const double *p)
+{
+  if (!ready(group, "pressure")) return;
+  if (!p) {
+    sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s: no pressures (NULL)", group->name);
+    return;
+  }
+  for (long i = 0; i < group->n; i++) {
+    double rho = group->own[SPH_DENSITY][0][i];
+    double u = group->eos.thermal ? energy_of(&group->eos, p[i], rho) : 0;
+    if (!group->eos.thermal) rho = group->eos.density(&group->eos, p[i], 0);
+    if (!isfinite(p[i]) || !(isfinite(rho) && rho > 0) || (group->eos.thermal && !(p[i] > 0))) {
+      sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
+                   "group %s, particle %ld: no state of equation of state %s has p = %g Pa",
+                   group->name, i, group->eos.name, p[i]);
+      return;
+    }
+    if (group->eos.thermal)
+      group->own[SPH_ENERGY][0][i] = u;
+    else
+      set_density(group, i, rho);
+  }
+}
+
+/* d p/d z = rho g downwards from p(rho0) at the surface, by Runge-Kutta of order 4 in depth: for any inverse rho(p). */
+static double pressure_at(const sph_eos *eos, double depth, double g)
+{
+  enum { STEPS = 200 };
+  double dz = depth / STEPS, p = eos->p_background;
+  for (int k = 0; k < STEPS; k++) {
+    double k1 = g * eos->density(eos, p, 0);
+    double k2 = g * eos->density(eos, p + dz / 2 * k1, 0);
+    double k3 = g * eos->density(eos, p + dz / 2 * k2, 0);
+    double k4 = g * eos->density(eos, p + dz * k3, 0);
+    p += dz / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  return p;
+}
+
+void sph_group_set_hydrostatic(sph_group *group, int axis, double surface, double g)
+{
+  if (!ready(group, "hydrostatic pressure")) return;
+  if (axis < 0 || axis >= group->dim || !isfinite(surface) || !(isfinite(g) && g >= 0)) {
+    sph_sim_fail(
+        group->sim, SPH_ERR_ARGUMENT,
+        "group %s: hydrostatic along axis %d, surface %g m, g = %g m/s^2; right is 0 <= axis < %d, "
+        "finite, g >= 0",
+        group->name, axis, surface, g, group->dim);
+    return;
+  }
+  if (group->eos.thermal) {
+    sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s: hydrostatic needs a liquid, not %s",
+                 group->name, group->eos.name);
+    return;
+  }
+  for (long i = 0; i < group->n; i++) {
+    double depth = fmax(0, surface - group->own[SPH_POSITION][axis][i]);
+    set_density(group, i, group->eos.density(&group->eos, pressure_at(&group->eos, depth, g), 0));
+  }
+}

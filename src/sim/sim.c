@@ -1,0 +1,220 @@
+#include "sphode/sim.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cpu.h"
+#include "memory.h"
+#include "sim_data.h"
+#include "sim_prepare.h"
+
+static int positive(sph_error *error, const char *name, double value)
+{
+  if (isfinite(value) && value > 0) return SPH_OK;
+  return sph_error_set(error, SPH_ERR_ARGUMENT, "%s = %g; right is a finite number > 0", name,
+                       value);
+}
+
+static void set_kernel(sph_sim *sim, const sph_sim_def *def)
+{
+  const char *name = def->kernel ? def->kernel : "wendland-c2";
+  char known[200] = "";
+  for (int k = 0; sph_kernel_get(k); k++) {
+    size_t used = strlen(known);
+    const char *other = sph_kernel_name(sph_kernel_get(k));
+    snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", other);
+    if (strcmp(name, other)) continue;
+    sim->kernel = sph_kernel_get(k);
+    sim->kernel_number = k;
+  }
+  if (!sim->kernel)
+    sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "kernel \"%s\"; known: %s", name, known);
+}
+
+static void set_lengths(sph_sim *sim, const sph_sim_def *def)
+{
+  if (positive(&sim->error, "dx", def->dx) || !sim->kernel) return;
+  double h_over_dx = def->h_over_dx == 0 ? sph_kernel_h_over_dx(sim->kernel) : def->h_over_dx;
+  if (positive(&sim->error, "h_over_dx", h_over_dx)) return;
+  sim->dx = def->dx;
+  sim->h = h_over_dx * def->dx;
+  sim->H = sph_kernel_support(sim->kernel) * sim->h;
+  if (!isfinite(def->skin)) {
+    sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "skin = %g is not finite", def->skin);
+    return;
+  }
+  sim->skin = (def->skin < 0 ? 0 : def->skin == 0 ? 0.15 : def->skin) * sim->h;
+  if (!(def->speed >= 0 && def->speed < INFINITY))
+    sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "speed = %g; right is a finite number >= 0",
+                  def->speed);
+  sim->speed = def->speed;
+}
+
+static void set_box(sph_sim *sim, const sph_sim_def *def)
+{
+  for (int d = 0; d < sim->dim; d++) {
+    sim->periodic[d] = def->periodic[d] != 0;
+    sim->origin[d] = def->origin[d];
+    sim->length[d] = def->length[d];
+    if (!sim->periodic[d]) continue;
+    if (!isfinite(def->origin[d]))
+      sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "origin[%d] = %g is not finite", d,
+                    def->origin[d]);
+    double least = 2 * (sim->H + sim->skin);
+    if (!(def->length[d] >= least && def->length[d] < INFINITY))
+      sph_error_set(
+          &sim->error, SPH_ERR_ARGUMENT,
+          "length[%d] = %g m of the periodic box; right is at least twice the support and the "
+          "skin, %g m",
+          d, def->length[d], least);
+  }
+}
+
+static void set_search(sph_sim *sim, const sph_sim_def *def)
+{
+  const char *method = def->neighbors ? def->neighbors : "blocks";
+  if (strcmp(method, "blocks") && strcmp(method, "brute-force"))
+    sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "neighbors \"%s\"; known: blocks, brute-force",
+                  method);
+  snprintf(sim->neighbors_method, sizeof sim->neighbors_method, "%s", method);
+  sim->isa = sph_cpu_isa(def->isa, &sim->error);
+}
+
+sph_sim *sph_sim_create(const sph_sim_def *def)
+{
+  sph_sim *sim = sph_memory_take(1, sizeof *sim);
+  if (!sim) return NULL;
+  static const sph_sim_def nothing = {0};
+  if (!def) {
+    sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "sph_sim_create: no definition (NULL)");
+    def = &nothing;
+  }
+  sim->dim = def->dim;
+  if (def->dim < 1 || def->dim > 3)
+    sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "dim = %d; right is 1, 2 or 3", def->dim);
+  sim->threads = def->threads ? def->threads : 1;
+  if (def->threads < 0 || def->threads > 1024)
+    sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "threads = %d; right is 0 (one) to 1024",
+                  def->threads);
+  if (!sim->error.status) set_kernel(sim, def);
+  if (!sim->error.status) set_lengths(sim, def);
+  if (!sim->error.status) set_box(sim, def);
+  if (!sim->error.status) set_search(sim, def);
+  return sim;
+}
+
+int sph_sim_data_ok(const sph_sim *sim) { return sim && sim->error.status == SPH_OK; }
+
+const char *sph_sim_error(const sph_sim *sim)
+{
+  return sim ? sim->error.text : "out of memory: the simulation itself";
+}
+
+int sph_sim_status(const sph_sim *sim) { return sim ? sim->error.status : SPH_ERR_MEMORY; }
+
+int sph_sim_fail(sph_sim *sim, int status, const char *format, ...)
+{
+  if (!sim) return SPH_ERR_MEMORY;
+  char text[sizeof sim->error.text];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return sph_error_set(&sim->error, status < 0 ? status : SPH_ERR_ARGUMENT, "%s", text);
+}
+
+void sph_sim_add_term(sph_sim *sim, sph_term term)
+{
+  int kept = sph_sim_data_ok(sim);
+  if (kept && sim->prepared) {
+    sph_sim_fail(sim, SPH_ERR_STATE, "term %s: terms are added before the run",
+                 term.name ? term.name : "");
+    kept = 0;
+  }
+  if (kept)
+    sph_term_set_add(&sim->terms, &term, &sim->error);
+  else if (term.free)
+    term.free(term.ctx);
+}
+
+void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def)
+{
+  if (!sph_sim_data_ok(sim)) return;
+  if (!def)
+    sph_sim_fail(sim, SPH_ERR_ARGUMENT, "sph_sim_set_integrator: no definition (NULL)");
+  else if (sim->prepared)
+    sph_sim_fail(sim, SPH_ERR_STATE, "the integrator is set before the run");
+  else if (sph_integrator_check(def, &sim->error) == SPH_OK) {
+    sim->integrator_def = *def;
+    if (def->method) snprintf(sim->method, sizeof sim->method, "%s", def->method);
+    sim->integrator_def.method = def->method ? sim->method : NULL;
+    sim->has_integrator = 1;
+  }
+}
+
+void sph_sim_add_output(sph_sim *sim, sph_output output)
+{
+  int kept = sph_sim_data_ok(sim);
+  if (kept && !output.frame)
+    kept = !sph_sim_fail(sim, SPH_ERR_ARGUMENT, "an output without a frame function");
+  if (kept && !(output.interval >= 0))
+    kept = !sph_sim_fail(sim, SPH_ERR_ARGUMENT, "output %s: interval = %g s; right is >= 0",
+                         output.name ? output.name : "", output.interval);
+  if (kept && sim->outlets == SPH_OUTPUTS_MAX)
+    kept = !sph_sim_fail(sim, SPH_ERR_ARGUMENT, "more than %d outputs", SPH_OUTPUTS_MAX);
+  if (kept)
+    sim->outlet[sim->outlets++] = (sph_outlet){.output = output};
+  else if (output.free)
+    output.free(output.ctx);
+}
+
+void sph_sim_set_progress(sph_sim *sim, int (*progress)(void *ctx, sph_sim *sim), void *ctx)
+{
+  if (!sph_sim_data_ok(sim)) return;
+  sim->progress = progress;
+  sim->progress_ctx = ctx;
+}
+
+double sph_sim_time(const sph_sim *sim) { return sim ? sim->time : 0; }
+int sph_sim_dim(const sph_sim *sim) { return sim ? sim->dim : 0; }
+double sph_sim_dx(const sph_sim *sim) { return sim ? sim->dx : 0; }
+double sph_sim_h(const sph_sim *sim) { return sim ? sim->h : 0; }
+int sph_sim_threads(const sph_sim *sim) { return sim ? sim->threads : 0; }
+long sph_sim_revision(const sph_sim *sim) { return sim ? sim->revision : 0; }
+
+const char *sph_sim_kernel(const sph_sim *sim)
+{
+  return sim && sim->kernel ? sph_kernel_name(sim->kernel) : "";
+}
+
+const char *sph_sim_isa(const sph_sim *sim) { return sim ? sph_cpu_isa_name(sim->isa) : ""; }
+
+const char *sph_sim_integrator(const sph_sim *sim)
+{
+  return sim && sim->integrator_def.method ? sim->method : "erk:bogacki-shampine-4-2-3";
+}
+
+sph_group *sph_sim_group(const sph_sim *sim, const char *name)
+{
+  for (int g = 0; sim && name && g < sim->groups; g++)
+    if (!strcmp(sim->group[g]->name, name)) return sim->group[g];
+  return NULL;
+}
+
+sph_group *sph_sim_group_get(const sph_sim *sim, int k)
+{
+  return sim && k >= 0 && k < sim->groups ? sim->group[k] : NULL;
+}
+
+void sph_sim_free(sph_sim *sim)
+{
+  if (!sim) return;
+  sph_sim_prepare_undo(sim);
+  for (int g = 0; g < sim->groups; g++) sph_group_data_free(sim->group[g]);
+  for (int k = 0; k < sim->outlets; k++)
+    if (sim->outlet[k].output.free) sim->outlet[k].output.free(sim->outlet[k].output.ctx);
+  sph_term_set_free(&sim->terms);
+  sph_memory_free(sim);
+}

@@ -1,0 +1,90 @@
+/* Phase admit: are the rates finite, the particles apart?  And the step limits that this evaluation gives. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "count_pair.h"
+#include "sim_rhs.h"
+
+enum { PARALLEL_MIN = 4096 };
+
+int sph_sim_admit_retry(sph_sim *sim, const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(sim->retry, sizeof sim->retry, format, arguments);
+  va_end(arguments);
+  return SPH_RETRY;
+}
+
+/* After a list build: pairs inside the support, and none nearer than 0.1 dx. */
+static int count(sph_evaluation *e)
+{
+  sph_sim *sim = e->sim;
+  const count_constants constants = {.H2 = sim->H * sim->H, .near2 = 0.01 * sim->dx * sim->dx};
+  long near = 0;
+  double pairs = 0;
+  for (int g = 0; g < sim->groups; g++) {
+    double *const *sum = sim->sorted[g].sum;
+    if (sim->group[g]->wall) continue;
+    sph_sim_pairs_clear(sim, g, SPH_COUNT_SUMS);
+    for (int s = 0; s < sim->groups; s++)
+      sph_sim_pairs_loop(sim, sph_count_loop(sim->isa, sim->dim), g, s, &constants);
+    for (long s = 0; s < e->view[g].n; s++) {
+      pairs += sum[SPH_COUNT_PAIRS][s];
+      near += sum[SPH_COUNT_NEAR][s] > 0 || sum[SPH_COUNT_ZERO][s] > 1;
+    }
+  }
+  sim->pairs_now = pairs;
+  sim->fresh = 0;
+  if (near)
+    return sph_sim_admit_retry(sim, "%ld particles are nearer than 0.1 dx = %g m to another", near,
+                               0.1 * sim->dx);
+  return SPH_OK;
+}
+
+/* What one group's rates say. */
+typedef struct extremes {
+  double v2, a2, slowest; /* max v^2, max a^2, min of h/(c (1 + 0.6 alpha) + |v|) */
+  long bad;               /* particles with a rate that is not finite */
+} extremes;
+
+static extremes look(const sph_sim *sim, const sph_view *view)
+{
+  double v2_max = 0, a2_max = 0, speed_max = 0, damping = 1 + 0.6 * sim->terms.alpha;
+  long bad = 0, n = view->n;
+#pragma omp parallel for num_threads(sim->threads) schedule(static)                                    \
+    reduction(max : v2_max, a2_max, speed_max) reduction(+ : bad) if (n > PARALLEL_MIN)
+  for (long i = 0; i < n; i++) {
+    double v2 = 0, a2 = 0;
+    for (int d = 0; d < sim->dim; d++) {
+      v2 += view->v[d][i] * view->v[d][i];
+      a2 += view->dv[d][i] * view->dv[d][i];
+    }
+    double speed = view->c[i] * damping + sqrt(v2);
+    v2_max = v2 > v2_max ? v2 : v2_max;
+    a2_max = a2 > a2_max ? a2 : a2_max;
+    speed_max = speed > speed_max ? speed : speed_max;
+    bad += !(a2 + v2 + fabs(view->drho[i]) + (view->du ? fabs(view->du[i]) : 0) < INFINITY);
+  }
+  return (extremes){v2_max, a2_max, sim->h / speed_max, bad};
+}
+
+int sph_sim_admit(sph_evaluation *e)
+{
+  sph_sim *sim = e->sim;
+  int status = sim->fresh ? count(e) : SPH_OK;
+  sim->pairs += sim->pairs_now;
+  sim->limit_cfl = sim->limit_force = INFINITY;
+  for (int g = 0; !status && g < sim->groups; g++) {
+    if (sim->group[g]->wall) continue;
+    extremes x = look(sim, &e->view[g]);
+    if (x.bad) return sph_sim_admit_retry(sim, "rates of %ld particles are not finite", x.bad);
+    if (sim->group[g]
+            ->eos.thermal) /* a gas may meet itself head on: approach speed up to 2 max |v| */
+      x.slowest = sim->h / (sim->h / x.slowest + sqrt(x.v2) + 1.2 * sim->terms.beta * sqrt(x.v2));
+    sim->limit_cfl = fmin(sim->limit_cfl, x.slowest);
+    if (x.a2 > 0) sim->limit_force = fmin(sim->limit_force, 0.25 * sqrt(sim->h / sqrt(x.a2)));
+  }
+  return status;
+}

@@ -1,0 +1,42 @@
+#include <math.h>
+
+#include "sim_data.h"
+
+/* What particle i adds; sums run over particles in their own order: the same for any number of threads. */
+static void add(const sph_sim *sim, const sph_group *group, const sph_view *view, long i,
+                sph_balance *b)
+{
+  double x[3] = {0}, v[3] = {0}, m = view->m[i], v2 = 0;
+  for (int d = 0; d < sim->dim; d++) {
+    x[d] = view->x[d][i];
+    v[d] = view->v[d][i];
+    v2 += v[d] * v[d];
+    b->momentum[d] += m * v[d];
+  }
+  for (int d = 0; d < 3; d++) {
+    int a = (d + 1) % 3, c = (d + 2) % 3;
+    b->angular_momentum[d] += m * (x[a] * v[c] - x[c] * v[a]);
+  }
+  b->mass += m;
+  b->kinetic += 0.5 * m * v2;
+  b->potential += m * sph_term_set_potential(&sim->terms, x);
+  if (view->u)
+    b->internal += m * view->u[i];
+  else if (group->eos.elastic_energy)
+    b->internal += m * group->eos.elastic_energy(&group->eos, view->rho[i]);
+}
+
+void sph_sim_balance(const sph_sim *sim, sph_balance *balance)
+{
+  if (!balance) return;
+  *balance = (sph_balance){0};
+  for (int g = 0; sim && g < sim->groups; g++) {
+    const sph_group *group = sim->group[g];
+    if (group->wall || !group->has_eos) continue;
+    sph_view view =
+        sph_group_data_view(group, sim->shown ? sph_nvector_data(sim->shown) : NULL, NULL);
+    if (!sim->prepared && group->eos.thermal) view.u = group->own[SPH_ENERGY][0];
+    for (long i = 0; i < group->n; i++) add(sim, group, &view, i, balance);
+  }
+  balance->total = balance->kinetic + balance->internal + balance->potential;
+}

@@ -1,0 +1,69 @@
+/* Phase bodies: starts all rates (dx/dt = v, dv/dt = g, the others zero) and adds the body terms. */
+#include <math.h>
+
+#include "sim_rhs.h"
+
+enum { PARALLEL_MIN = 4096 };
+
+static void start(const sph_sim *sim, const sph_view *view)
+{
+  long n = view->n;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
+  for (long i = 0; i < n; i++) {
+    for (int d = 0; d < sim->dim; d++) {
+      view->dx[d][i] = view->v[d][i];
+      view->dv[d][i] = sim->terms.g[d];
+    }
+    view->drho[i] = 0;
+    if (view->du) view->du[i] = 0;
+  }
+}
+
+static sph_particles particles(const sph_evaluation *e, int g)
+{
+  const sph_view *view = &e->view[g];
+  sph_particles s = {.dim = e->sim->dim, .n = view->n, .t = e->t, .group = e->sim->group[g]->name};
+  for (int d = 0; d < s.dim; d++) {
+    s.x[d] = view->x[d];
+    s.v[d] = view->v[d];
+    s.a[d] = view->dv[d];
+  }
+  s.rho = view->rho;
+  s.u = view->u;
+  s.p = view->p;
+  s.c = view->c;
+  s.m = view->m;
+  s.drho = view->drho;
+  s.du = view->du;
+  return s;
+}
+
+static int add(sph_sim *sim, const sph_term *term, const sph_particles *s)
+{
+  int status = term->body(term, s);
+  if (status > 0) return sph_sim_admit_retry(sim, "term %s asks for a smaller step", term->name);
+  if (status < 0)
+    return sph_error_set(&sim->error, status, "term %s failed at t = %g s in group %s", term->name,
+                         s->t, s->group);
+  double limit = term->dt_max ? term->dt_max(term, s) : INFINITY;
+  if (!(limit > 0))
+    return sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "term %s: dt_max gave %g; right is > 0",
+                         term->name, limit);
+  if (limit < sim->limit_user) sim->limit_user = limit;
+  return SPH_OK;
+}
+
+int sph_sim_bodies_add(sph_evaluation *e)
+{
+  sph_sim *sim = e->sim;
+  int status = SPH_OK;
+  sim->limit_user = INFINITY;
+  for (int g = 0; g < sim->groups; g++) {
+    if (sim->group[g]->wall) continue;
+    start(sim, &e->view[g]);
+    sph_particles s = particles(e, g);
+    for (int k = 0; !status && k < sim->terms.bodies; k++)
+      status = add(sim, &sim->terms.body[k], &s);
+  }
+  return status;
+}

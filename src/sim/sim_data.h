@@ -1,0 +1,80 @@
+/* sim_data.h -- what a simulation owns.  Internal: files of sim/ share it. */
+#ifndef SPH_SIM_DATA_H
+#define SPH_SIM_DATA_H
+#include "group_data.h"
+#include "integrator.h"
+#include "nvector.h"
+#include "sphode/kernel.h"
+#include "sphode/neighbors.h"
+#include "sphode/pair_loop.h"
+#include "sphode/sim.h"
+#include "term_set.h"
+
+enum { SPH_OUTPUTS_MAX = 16, SPH_METHOD_MAX = 64 };
+
+/* A group's sorted copy: what the pair loops read, and the sums that they make. */
+typedef struct sph_sorted {
+  long room;                  /* particles: a multiple of 8 */
+  long stride;                /* doubles in a record */
+  double *record;             /* [room * stride + SPH_PAIR_SLOTS] */
+  double *sum[SPH_PAIR_SUMS]; /* [room] */
+  double *built[3];           /* positions at the last list build, not sorted, [capacity] */
+} sph_sorted;
+
+typedef struct sph_outlet {
+  sph_output output;
+  long frames; /* written: the next one is due at start + frames * interval */
+  int open;
+} sph_outlet;
+
+struct sph_sim {
+  sph_error error;
+  char retry[200]; /* why the last evaluation asked for a smaller step */
+
+  /* Fixed when created. */
+  int dim, threads, isa, kernel_number, periodic[3];
+  const sph_kernel *kernel;
+  char neighbors_method[SPH_METHOD_MAX];
+  double dx, h, H, skin, speed, origin[3], length[3]; /* H: support radius; skin [m] */
+
+  /* Attached. */
+  int groups, outlets, has_integrator;
+  sph_group *group[SPH_SETS_MAX];
+  sph_term_set terms;
+  sph_outlet outlet[SPH_OUTPUTS_MAX];
+  sph_integrator_def integrator_def;
+  char method[SPH_METHOD_MAX];
+  int (*progress)(void *ctx, sph_sim *sim);
+  void *progress_ctx;
+
+  /* Made by sph_sim_prepare. */
+  int prepared;
+  SUNContext context;
+  sph_layout layout;
+  N_Vector y, ydot, frame; /* state; rates of sph_sim_evaluate; state between steps, for outputs */
+  N_Vector shown;          /* y or frame */
+  sph_integrator *integrator;
+  sph_neighbors *neighbors;
+  sph_sorted sorted[SPH_SETS_MAX];
+  unsigned loop_terms; /* bits of the fluid <- fluid loop */
+  fluid_constants constants;
+  double F_scale;                         /* sigma/h^(d+2) */
+  double scale[SPH_SETS_MAX][SPH_FIELDS]; /* error weights: physical scale of each field */
+  double step_scale_v;                    /* V of the error weights [m/s] */
+
+  /* Moving. */
+  double time;                               /* of the state shown */
+  double start;                              /* of the run: frames count from here */
+  int listed;                                /* neighbour lists exist */
+  int fresh;                                 /* ... and have not been counted yet */
+  int derived;                               /* pressure etc. are those of the state shown */
+  double limit_cfl, limit_force, limit_user; /* step limits of the last evaluation [s] */
+  double pairs_now; /* directed pairs inside the support, at the last list build */
+  double pairs, seconds;
+  long list_builds, revision;
+};
+
+/* Any call on a simulation without an error?  NULL: no. */
+int sph_sim_data_ok(const sph_sim *sim);
+
+#endif

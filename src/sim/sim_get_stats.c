@@ -1,0 +1,26 @@
+#include "sim_data.h"
+
+static double held(const sph_sim *sim)
+{
+  double doubles = 3.0 * (double)sim->layout.length; /* without the integrator's own vectors */
+  for (int g = 0; g < sim->groups; g++) {
+    const sph_group *group = sim->group[g];
+    doubles +=
+        (double)sim->sorted[g].room * (SPH_PAIR_SUMS + (double)sim->sorted[g].stride + sim->dim);
+    for (int field = 0; field < SPH_FIELDS; field++)
+      for (int c = 0; c < 3; c++) doubles += group->own[field][c] ? (double)group->capacity : 0;
+  }
+  return 8 * doubles + (sim->neighbors ? sph_neighbors_bytes(sim->neighbors) : 0);
+}
+
+void sph_sim_get_stats(const sph_sim *sim, sph_sim_stats *stats)
+{
+  if (!stats) return;
+  *stats = (sph_sim_stats){0};
+  if (!sim) return;
+  if (sim->integrator) stats->step = *sph_integrator_stats(sim->integrator);
+  stats->pairs = sim->pairs;
+  stats->seconds = sim->seconds;
+  stats->list_builds = sim->list_builds;
+  stats->bytes = held(sim);
+}

@@ -1,0 +1,63 @@
+/* Phase prepare: <grad rho>^L of every fluid particle, for the Antuono diffusion (gradient_pair.h).
+ *
+ * Where the least eigenvalue of M is under 0.4 (a surface, an isolated particle) the gradient is left out: Molteni's
+ * diffusion for that end of the pair. */
+#include "gradient_loops.h"
+#include "sim_rhs.h"
+
+static const double LEAST_EIGENVALUE = 0.4;
+
+/* Cholesky of the dim x dim matrix A - shift I; 0 where it is not positive definite. */
+static int cholesky(int dim, double A[3][3], double shift, double L[3][3])
+{
+  for (int a = 0; a < dim; a++)
+    for (int b = 0; b <= a; b++) {
+      double sum = A[a][b] - (a == b ? shift : 0);
+      for (int k = 0; k < b; k++) sum -= L[a][k] * L[b][k];
+      if (a == b && !(sum > 0)) return 0;
+      L[a][b] = a == b ? sqrt(sum) : sum / L[b][b];
+    }
+  return 1;
+}
+
+/* x = (L L^T)^-1 x. */
+static void solve(int dim, double L[3][3], double x[3])
+{
+  for (int a = 0; a < dim; a++) {
+    for (int k = 0; k < a; k++) x[a] -= L[a][k] * x[k];
+    x[a] /= L[a][a];
+  }
+  for (int a = dim - 1; a >= 0; a--) {
+    for (int k = a + 1; k < dim; k++) x[a] -= L[k][a] * x[k];
+    x[a] /= L[a][a];
+  }
+}
+
+static void finish(const sph_sim *sim, sph_sorted *sorted, long s)
+{
+  int dim = sim->dim, k = 0;
+  double M[3][3], L[3][3], gradient[3];
+  for (int a = 0; a < dim; a++)
+    for (int b = a; b < dim; b++) M[a][b] = M[b][a] = sim->F_scale * sorted->sum[k++][s];
+  for (int a = 0; a < dim; a++) gradient[a] = sim->F_scale * sorted->sum[k++][s];
+  if (!cholesky(dim, M, LEAST_EIGENVALUE, L)) return; /* the slots hold zeros */
+  cholesky(dim, M, 0, L);
+  solve(dim, L, gradient);
+  for (int a = 0; a < dim; a++)
+    sorted->record[s * sorted->stride + slot_extra(dim) + a] = gradient[a];
+}
+
+int sph_sim_gradients(sph_evaluation *e)
+{
+  sph_sim *sim = e->sim;
+  if (!(sim->loop_terms & SPH_ANTUONO)) return SPH_OK;
+  sph_pair_function *loop = sph_gradient_loop(sim->isa, sim->kernel_number, sim->dim);
+  for (int g = 0; g < sim->groups; g++) {
+    if (sim->group[g]->wall) continue;
+    sph_sim_pairs_clear(sim, g, gradient_sums(sim->dim));
+    for (int s = 0; s < sim->groups; s++) sph_sim_pairs_loop(sim, loop, g, s, &sim->constants);
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (e->view[g].n > 2048)
+    for (long s = 0; s < e->view[g].n; s++) finish(sim, &sim->sorted[g], s);
+  }
+  return SPH_OK;
+}

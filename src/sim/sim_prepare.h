@@ -1,0 +1,9 @@
+/* sim_prepare.h -- from what was attached to a system of ODEs, once, before the first evaluation. */
+#ifndef SPH_SIM_PREPARE_H
+#define SPH_SIM_PREPARE_H
+#include "sim_data.h"
+
+int sph_sim_prepare(sph_sim *sim);
+void sph_sim_prepare_undo(sph_sim *sim); /* lets go of all that it made */
+
+#endif

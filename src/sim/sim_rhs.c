@@ -1,0 +1,41 @@
+/* The right-hand side dy/dt = f(t, y), phase by phase.  f depends on (t, y) and on the sort order of the last list
+ * build only; nothing else is kept from one call to the next. */
+#include "sim_rhs.h"
+
+#include "comm.h"
+
+static void views(sph_evaluation *e, N_Vector y, N_Vector ydot)
+{
+  for (int g = 0; g < e->sim->groups; g++)
+    e->view[g] = sph_group_data_view(e->sim->group[g], sph_nvector_data(y),
+                                     ydot ? sph_nvector_data(ydot) : NULL);
+}
+
+int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *sim)
+{
+  sph_evaluation e = {.sim = sim, .t = t};
+  views(&e, y, ydot);
+  int status = sph_sim_walls_move(&e);
+  if (!status) status = sph_sim_lists_update(&e); /* neighbors */
+  if (!status) status = sph_comm_exchange(SPH_COMM_STATE);
+  if (!status) status = sph_sim_material_eos(&e); /* eos */
+  if (!status) status = sph_sim_bodies_add(&e);   /* bodies */
+  if (!status) status = sph_sim_walls_fill(&e);   /* walls */
+  if (!status) status = sph_comm_exchange(SPH_COMM_WALLS);
+  if (!status) status = sph_sim_gradients(&e); /* prepare */
+  if (!status) status = sph_comm_exchange(SPH_COMM_GRADIENTS);
+  if (!status) status = sph_sim_pairs_add(&e); /* pairs */
+  if (!status) status = sph_sim_admit(&e);     /* admit */
+  return status;
+}
+
+int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y)
+{
+  sph_evaluation e = {.sim = sim, .t = t};
+  views(&e, y, NULL);
+  int status = sph_sim_walls_move(&e);
+  if (!status && !sim->listed) status = sph_sim_lists_update(&e);
+  if (!status) status = sph_sim_material_eos(&e);
+  if (!status) status = sph_sim_walls_fill(&e);
+  return status;
+}

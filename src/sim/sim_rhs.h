@@ -1,0 +1,37 @@
+/* sim_rhs.h -- the right-hand side, by phases.  Each phase returns 0, SPH_RETRY or a failure (recorded). */
+#ifndef SPH_SIM_RHS_H
+#define SPH_SIM_RHS_H
+#include "sim_data.h"
+
+/* One evaluation: the views of all groups and what its phases hand on. */
+typedef struct sph_evaluation {
+  sph_sim *sim;
+  double t;
+  sph_view view[SPH_SETS_MAX];
+} sph_evaluation;
+
+/* f(t, y): an ARKRhsFn with the simulation as user data. */
+int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *sim);
+/* Pressure, sound speed and walls of the state (t, y), with the lists as they are. */
+int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y);
+
+int sph_sim_lists_update(sph_evaluation *e);           /* neighbors */
+int sph_sim_material_eos(sph_evaluation *e);           /* eos */
+int sph_sim_bodies_add(sph_evaluation *e);             /* bodies: starts all rates */
+int sph_sim_walls_move(sph_evaluation *e);             /* walls: prescribed motion */
+int sph_sim_walls_fill(sph_evaluation *e);             /* walls: extrapolation */
+int sph_sim_gradients(sph_evaluation *e);              /* prepare */
+void sph_sim_pairs_pack(sph_evaluation *e, int walls); /* sorted copies of fluids, or of walls */
+int sph_sim_pairs_add(sph_evaluation *e);              /* pairs */
+int sph_sim_admit(sph_evaluation *e);                  /* admit */
+
+void sph_sim_pairs_pack_positions(const sph_evaluation *e, int g);
+void sph_sim_pairs_clear(sph_sim *sim, int g, int sums);
+
+/* Runs one loop over all target blocks of (target <- source). */
+void sph_sim_pairs_loop(sph_sim *sim, sph_pair_function *loop, int target, int source,
+                        const void *constants);
+/* The simulation asks for a smaller step, for this reason. */
+int sph_sim_admit_retry(sph_sim *sim, const char *format, ...) SPH_PRINTF(2, 3);
+
+#endif

@@ -1,0 +1,162 @@
+/* The run: steps, and frames at their exact times by dense output, so that no frame shortens a step. */
+#define _POSIX_C_SOURCE 200809L
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "sim_prepare.h"
+#include "sim_rhs.h"
+#include "sim_run.h"
+
+static double seconds(void)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void show(sph_sim *sim, double t, N_Vector state)
+{
+  sim->shown = state;
+  sim->time = t;
+  sim->derived = 0;
+}
+
+int sph_sim_run_derived(sph_sim *sim)
+{
+  if (sim->derived) return SPH_OK;
+  int status = sph_sim_rhs_show(sim, sim->time, sim->shown);
+  if (status > 0) status = sph_sim_fail(sim, SPH_ERR_STEP, "t = %g s: %s", sim->time, sim->retry);
+  sim->derived = !status;
+  return status;
+}
+
+/* Time of an outlet's next frame. */
+static double due(const sph_sim *sim, const sph_outlet *outlet)
+{
+  if (outlet->output.interval == 0) return outlet->frames ? INFINITY : sim->start;
+  if (outlet->frames == 0) return sim->start;
+  return sim->start + (double)outlet->frames * outlet->output.interval;
+}
+
+static int frame(sph_sim *sim, sph_outlet *outlet)
+{
+  int status = sph_sim_run_derived(sim);
+  if (!status) status = outlet->output.frame(outlet->output.ctx, sim, &sim->error);
+  outlet->frames++;
+  return status;
+}
+
+/* All frames due in (previous, time] of the last step. */
+static int frames(sph_sim *sim)
+{
+  double now = sph_integrator_time(sim->integrator);
+  int status = SPH_OK;
+  for (int k = 0; !status && k < sim->outlets; k++) {
+    sph_outlet *outlet = &sim->outlet[k];
+    for (double t = due(sim, outlet); !status && t <= now; t = due(sim, outlet)) {
+      if (t < now) {
+        status = sph_integrator_interpolate(sim->integrator, t, sim->frame);
+        show(sim, t, sim->frame);
+      }
+      if (!status) status = frame(sim, outlet);
+      show(sim, now, sim->y);
+    }
+    if (!status && outlet->output.interval == 0) status = frame(sim, outlet);
+  }
+  return status;
+}
+
+static int open_outputs(sph_sim *sim)
+{
+  int status = SPH_OK;
+  for (int k = 0; !status && k < sim->outlets; k++) {
+    sph_outlet *outlet = &sim->outlet[k];
+    if (outlet->open) continue;
+    if (outlet->output.open) status = outlet->output.open(outlet->output.ctx, sim, &sim->error);
+    outlet->open = !status;
+    if (!status) status = frame(sim, outlet);
+  }
+  return status;
+}
+
+/* Also after a failure: what was written stays, and is complete. */
+static void close_outputs(sph_sim *sim)
+{
+  for (int k = 0; k < sim->outlets; k++) {
+    sph_outlet *outlet = &sim->outlet[k];
+    if (outlet->open && outlet->output.close)
+      outlet->output.close(outlet->output.ctx, sim, &sim->error);
+    outlet->open = 0;
+  }
+}
+
+static int step(sph_sim *sim, double t_stop)
+{
+  sim->retry[0] = 0;
+  int status = sph_integrator_step(sim->integrator, t_stop);
+  show(sim, sph_integrator_time(sim->integrator), sim->y);
+  if (status && sim->retry[0]) { /* why the evaluations asked for smaller steps */
+    size_t used = strlen(sim->error.text);
+    snprintf(sim->error.text + used, sizeof sim->error.text - used, "; the last reason: %s",
+             sim->retry);
+  }
+  return status;
+}
+
+int sph_sim_step(sph_sim *sim)
+{
+  double begin = seconds();
+  int status = sph_sim_prepare(sim);
+  if (!status) status = step(sim, INFINITY);
+  if (sim) sim->seconds += seconds() - begin;
+  return status;
+}
+
+static int run(sph_sim *sim, double t_end)
+{
+  int status = sph_sim_prepare(sim);
+  if (status) return status;
+  if (!(isfinite(t_end) && t_end >= sim->time))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "t_end = %g s; right is finite and >= %g s, the present time", t_end,
+                        sim->time);
+  status = open_outputs(sim);
+  while (!status && sim->time < t_end) {
+    status = step(sim, t_end);
+    if (!status) status = frames(sim);
+    if (!status && sim->progress && sim->progress(sim->progress_ctx, sim))
+      status = sph_sim_fail(sim, SPH_ERR_STOPPED, "stopped on request at t = %g s", sim->time);
+  }
+  for (int k = 0; !status && k < sim->outlets; k++) /* INFINITY: start and end only */
+    if (isinf(sim->outlet[k].output.interval)) status = frame(sim, &sim->outlet[k]);
+  close_outputs(sim);
+  return status ? status : sim->error.status;
+}
+
+int sph_sim_run(sph_sim *sim, double t_end)
+{
+  double begin = seconds();
+  int status = run(sim, t_end);
+  if (sim) sim->seconds += seconds() - begin;
+  return status;
+}
+
+void sph_sim_changed(sph_sim *sim)
+{
+  if (!sph_sim_data_ok(sim) || !sim->prepared) return;
+  sim->derived = 0;
+  sph_integrator_reset(sim->integrator, sim->time);
+}
+
+int sph_sim_evaluate(sph_sim *sim)
+{
+  int status = sph_sim_prepare(sim);
+  if (status) return status;
+  status = sph_sim_rhs(sim->time, sim->shown, sim->ydot, sim);
+  if (status > 0)
+    status = sph_sim_fail(sim, SPH_ERR_ARGUMENT, "the state is not admissible: %s", sim->retry);
+  sim->derived = !status;
+  return status;
+}

@@ -1,0 +1,84 @@
+/* Phase walls: prescribed motion; then p, rho and v of Adami walls from the fluid (Adami, Hu & Adams 2012).
+ *
+ *   p_w = [sum p_f W + (g - a_w) . sum rho_f r_wf W]/sum W,   rho_w from p_w by the inverse equation of state,
+ *   v_w = 2 v_prescribed - sum v_f W/sum W in viscous terms (no slip).   No fluid near: p_w = 0. */
+#include <math.h>
+
+#include "sim_rhs.h"
+#include "wall_loops.h"
+
+static void motion(const sph_group *wall, double t, double displacement[3], double velocity[3],
+                   double acceleration[3])
+{
+  for (int d = 0; d < 3; d++) displacement[d] = velocity[d] = acceleration[d] = 0;
+  if (wall->boundary.motion)
+    wall->boundary.motion(wall->boundary.ctx, t, displacement, velocity, acceleration);
+}
+
+int sph_sim_walls_move(sph_evaluation *e)
+{
+  const sph_sim *sim = e->sim;
+  for (int g = 0; g < sim->groups; g++) {
+    const sph_group *wall = sim->group[g];
+    if (!wall->wall || !wall->boundary.motion) continue;
+    double displacement[3], velocity[3], acceleration[3];
+    motion(wall, e->t, displacement, velocity, acceleration);
+    for (int d = 0; d < sim->dim; d++)
+      for (long i = 0; i < wall->n; i++) {
+        e->view[g].x[d][i] = wall->start[d][i] + displacement[d];
+        e->view[g].v[d][i] = velocity[d];
+      }
+  }
+  return SPH_OK;
+}
+
+/* One wall particle at sorted place s, from its sums. */
+static void fill(const sph_sim *sim, const sph_group *wall, const sph_view *view, long s, long i,
+                 const double g_minus_a[3])
+{
+  double *const *sum = sim->sorted[wall->index].sum;
+  double W = sum[SPH_WALL_W][s], p = 0, u = 0;
+  if (W > 0) {
+    p = sum[SPH_WALL_P][s];
+    for (int d = 0; d < sim->dim; d++) p += g_minus_a[d] * sum[SPH_WALL_RHO_R + d][s];
+    p /= W;
+    u = wall->eos.thermal ? sum[SPH_WALL_U][s] / W : 0;
+  }
+  if (p < 0 && !wall->boundary.tension) p = 0;
+  int inverse = !wall->eos.thermal || (p > 0 && u > 0);
+  double rho = inverse ? wall->eos.density(&wall->eos, p, u) : view->m[i] / pow(sim->dx, sim->dim);
+  double unused;
+  if (wall->boundary.no_slip) wall->eos.pressure(&wall->eos, 1, &rho, &u, &unused, &view->c[i]);
+  view->rho[i] = rho;
+  view->p[i] = p;
+}
+
+static void finish(const sph_evaluation *e, int g)
+{
+  const sph_sim *sim = e->sim;
+  const sph_group *wall = sim->group[g];
+  const int *order = sph_neighbors_order(sim->neighbors, g);
+  double displacement[3], velocity[3], acceleration[3], g_minus_a[3];
+  motion(wall, e->t, displacement, velocity, acceleration);
+  for (int d = 0; d < 3; d++) g_minus_a[d] = sim->terms.g[d] - acceleration[d];
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (wall->n > 512)
+  for (long s = 0; s < wall->n; s++) fill(sim, wall, &e->view[g], s, order[s], g_minus_a);
+}
+
+int sph_sim_walls_fill(sph_evaluation *e)
+{
+  sph_sim *sim = e->sim;
+  sph_pair_function *loop =
+      sph_wall_loop(sim->isa, sim->kernel_number, sim->dim, sim->loop_terms & SPH_THERMAL ? 1 : 0);
+  sph_sim_pairs_pack(e, 0);
+  for (int g = 0; g < sim->groups; g++) {
+    if (!sim->group[g]->wall) continue;
+    sph_sim_pairs_pack_positions(e, g);
+    sph_sim_pairs_clear(sim, g, SPH_WALL_SUMS);
+    for (int f = 0; f < sim->groups; f++)
+      if (!sim->group[f]->wall) sph_sim_pairs_loop(sim, loop, g, f, &sim->constants);
+    finish(e, g);
+  }
+  sph_sim_pairs_pack(e, 1);
+  return SPH_OK;
+}

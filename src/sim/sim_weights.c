@@ -1,0 +1,68 @@
+/* Error weights: physical scales of each field of each group.
+ *   x: h;  v: V = max(user's, sqrt(g height), 0.01 c0, |v| at the start);  rho: rho0 (V/c0)^2;  u: V^2/2
+ * and for a gas V = mean sound speed, rho0 = mean density. */
+#include "sim_weights.h"
+
+#include <math.h>
+
+static double mean(const double *a, long n)
+{
+  double sum = 0;
+  for (long i = 0; i < n; i++) sum += a[i];
+  return n ? sum / (double)n : 0;
+}
+
+/* sqrt(|g| height): the extent of the fluid along g. */
+static double fall_speed(const sph_sim *sim, const sph_view *view)
+{
+  double g2 = 0, low = INFINITY, high = -INFINITY;
+  for (int d = 0; d < sim->dim; d++) g2 += sim->terms.g[d] * sim->terms.g[d];
+  for (long i = 0; g2 > 0 && i < view->n; i++) {
+    double along = 0;
+    for (int d = 0; d < sim->dim; d++) along += sim->terms.g[d] * view->x[d][i];
+    low = fmin(low, along);
+    high = fmax(high, along);
+  }
+  return high > low ? sqrt(high - low) : 0;
+}
+
+static double speed(const sph_sim *sim, const sph_view *view)
+{
+  double most = 0;
+  for (long i = 0; i < view->n; i++) {
+    double v2 = 0;
+    for (int d = 0; d < sim->dim; d++) v2 += view->v[d][i] * view->v[d][i];
+    most = fmax(most, v2);
+  }
+  return sqrt(most);
+}
+
+void sph_sim_weights_scales(sph_sim *sim, int g, const sph_view *view)
+{
+  const sph_group *group = sim->group[g];
+  double c = group->eos.c0, rho = group->eos.rho0, V = sim->speed;
+  if (group->eos.thermal || !(c > 0)) c = mean(view->c, view->n);
+  if (group->eos.thermal || !(rho > 0)) rho = mean(view->rho, view->n);
+  V = fmax(V, fmax(fall_speed(sim, view), speed(sim, view)));
+  V = fmax(V, group->eos.thermal ? c : 0.01 * c);
+  double *scale = sim->scale[g];
+  scale[SPH_POSITION] = sim->h;
+  scale[SPH_VELOCITY] = V;
+  scale[SPH_DENSITY] = rho * fmin(1, (V / c) * (V / c));
+  scale[SPH_ENERGY] = V * V / 2;
+}
+
+int sph_sim_weights(N_Vector y, N_Vector weight, void *ctx)
+{
+  const sph_sim *sim = ctx;
+  double *w = sph_nvector_data(weight);
+  (void)y;
+  for (int g = 0; g < sim->groups; g++)
+    for (int field = 0; field < SPH_FIELDS; field++)
+      for (int c = 0; c < 3; c++) {
+        long offset = sim->group[g]->offset[field][c];
+        for (long i = 0; offset >= 0 && i < sim->group[g]->capacity; i++)
+          w[offset + i] = 1 / sim->scale[g][field];
+      }
+  return 0;
+}

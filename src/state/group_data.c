@@ -1,0 +1,113 @@
+#include "group_data.h"
+
+#include <string.h>
+
+#include "memory.h"
+
+int sph_group_data_components(int dim, int field) { return sph_field_get(field)->vector ? dim : 1; }
+
+int sph_group_data_integrated(const struct sph_group *group, int field)
+{
+  if (group->wall) return 0;
+  if (field == SPH_ENERGY) return group->has_eos && group->eos.thermal;
+  return sph_field_get(field)->integrated;
+}
+
+int sph_group_data_reserve(struct sph_group *group, long count, sph_error *error)
+{
+  if (count <= group->capacity) return SPH_OK;
+  long wanted = count > group->capacity * 3 / 2 ? count : group->capacity * 3 / 2;
+  size_t capacity = (size_t)(wanted + 7) / 8 * 8, old = (size_t)group->n;
+  int status =
+      sph_memory_grow((void **)&group->id, old, capacity, sizeof(long), "particle numbers", error);
+  for (int field = 0; field < SPH_FIELDS; field++)
+    for (int c = 0; status == SPH_OK && c < sph_group_data_components(group->dim, field); c++)
+      status = sph_memory_grow((void **)&group->own[field][c], old, capacity, sizeof(double),
+                               sph_field_get(field)->name, error);
+  for (int d = 0; group->wall && status == SPH_OK && d < group->dim; d++)
+    status = sph_memory_grow((void **)&group->start[d], old, capacity, sizeof(double),
+                             "wall positions", error);
+  if (status == SPH_OK) group->capacity = (long)capacity;
+  return status;
+}
+
+void sph_group_data_free(struct sph_group *group)
+{
+  if (!group) return;
+  if (group->eos.free) group->eos.free(group->eos.ctx);
+  if (group->boundary.free) group->boundary.free(group->boundary.ctx);
+  for (int c = 0; c < 3; c++) {
+    for (int field = 0; field < SPH_FIELDS; field++) sph_memory_free(group->own[field][c]);
+    sph_memory_free(group->start[c]);
+  }
+  sph_memory_free(group->id);
+  sph_memory_free(group);
+}
+
+static void place(struct sph_group *group, sph_layout *layout, int field, int c, int role)
+{
+  sph_segment *segment = &layout->segment[layout->segments++];
+  *segment = (sph_segment){layout->length, group->n, group->capacity, role, -1};
+  group->offset[field][c] = layout->length;
+  layout->length += group->capacity;
+  layout->entries += group->n;
+}
+
+void sph_group_data_place(struct sph_group *group, sph_layout *layout)
+{
+  static const int role[SPH_FIELDS] = {[SPH_POSITION] = SPH_ROLE_POSITION,
+                                       [SPH_VELOCITY] = SPH_ROLE_VELOCITY,
+                                       [SPH_DENSITY] = SPH_ROLE_OTHER,
+                                       [SPH_ENERGY] = SPH_ROLE_OTHER};
+  int position = layout->segments;
+  for (int field = 0; field < SPH_FIELDS; field++) {
+    if (!sph_group_data_integrated(group, field)) continue;
+    for (int c = 0; c < sph_group_data_components(group->dim, field); c++)
+      place(group, layout, field, c, role[field]);
+  }
+  for (int d = 0; d < group->dim && layout->segments > position; d++)
+    layout->segment[position + d].partner = position + group->dim + d;
+}
+
+void sph_group_data_move(struct sph_group *group, double *y)
+{
+  for (int field = 0; field < SPH_FIELDS; field++)
+    for (int c = 0; c < 3; c++) {
+      if (group->offset[field][c] < 0 || !group->own[field][c]) continue;
+      memcpy(y + group->offset[field][c], group->own[field][c], (size_t)group->n * sizeof *y);
+      sph_memory_free(group->own[field][c]);
+      group->own[field][c] = NULL;
+    }
+}
+
+double *sph_group_data_component(const struct sph_group *group, const double *y, int field, int c)
+{
+  if (group->offset[field][c] < 0) return group->own[field][c];
+  return y ? (double *)y + group->offset[field][c] : NULL;
+}
+
+static double *rate(const struct sph_group *group, double *ydot, int field, int c)
+{
+  return ydot && group->offset[field][c] >= 0 ? ydot + group->offset[field][c] : NULL;
+}
+
+sph_view sph_group_data_view(const struct sph_group *group, const double *y, double *ydot)
+{
+  sph_view view = {.n = group->n};
+  for (int d = 0; d < group->dim; d++) {
+    view.x[d] = sph_group_data_component(group, y, SPH_POSITION, d);
+    view.v[d] = sph_group_data_component(group, y, SPH_VELOCITY, d);
+    view.dx[d] = rate(group, ydot, SPH_POSITION, d);
+    view.dv[d] = rate(group, ydot, SPH_VELOCITY, d);
+  }
+  view.rho = sph_group_data_component(group, y, SPH_DENSITY, 0);
+  view.drho = rate(group, ydot, SPH_DENSITY, 0);
+  if (group->offset[SPH_ENERGY][0] >= 0) {
+    view.u = sph_group_data_component(group, y, SPH_ENERGY, 0);
+    view.du = rate(group, ydot, SPH_ENERGY, 0);
+  }
+  view.m = group->own[SPH_MASS][0];
+  view.p = group->own[SPH_PRESSURE][0];
+  view.c = group->own[SPH_SOUND_SPEED][0];
+  return view;
+}

@@ -1,0 +1,26 @@
+#include "fluid_loops.h"
+
+#define DECLARE(isa) extern const sph_fluid_table sph_fluid_loops_##isa;
+SPH_ISA_BUILT(DECLARE)
+
+static const sph_fluid_table *const tables[SPH_ISA_COUNT] = {
+#define ROW(isa) [SPH_ISA_##isa] = &sph_fluid_loops_##isa,
+    SPH_ISA_BUILT(ROW)
+#undef ROW
+};
+
+static int set_of(unsigned terms)
+{
+  const fluid_constants constants = {.terms = terms},
+                        *k = &constants; /* "any" matches itself, last */
+#define MATCH(kernel, dim, name, mask, slots) \
+  if (terms == (mask)) return SPH_FLUID_SET_##name;
+  SPH_FLUID_SETS(MATCH, , )
+#undef MATCH
+  return SPH_FLUID_SET_any;
+}
+
+sph_pair_function *sph_fluid_loop(int isa, int kernel, int dim, unsigned terms)
+{
+  return tables[isa]->loop[kernel][dim - 1][set_of(terms)];
+}

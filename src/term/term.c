@@ -1,0 +1,26 @@
+#include "sphode/term.h"
+
+#include <string.h>
+
+static const struct {
+  const char *name, *formula;
+} terms[] = {
+    {"continuity", "d rho_i/dt = rho_i sum V_j v_ij.grad W (c2) or sum m_j v_ij.grad W (c1)"},
+    {"pressure", "a_i = -sum m_j (p_i + p_j)/(rho_i rho_j) grad W (c2) or "
+                 "-sum m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W (s)"},
+    {"viscosity-artificial", "a_i = -sum m_j Pi_ij grad W, Pi = (-alpha c mu + beta mu^2)/rho"},
+    {"conductivity-artificial", "du_i = sum m_j/rho_ij alpha v_sig (u_i - u_j) r F"},
+    {"delta", "d rho_i/dt += delta h c0 sum V_j psi_ij.grad W (molteni, antuono)"},
+    {"gravity", "a_i = g"},
+    {"harmonic", "a_i = -omega^2 x_i"},
+};
+enum { TERMS = sizeof terms / sizeof *terms };
+
+const char *sph_term_name(int k) { return k >= 0 && k < TERMS ? terms[k].name : NULL; }
+
+const char *sph_term_formula(const char *name)
+{
+  for (int k = 0; name && k < TERMS; k++)
+    if (!strcmp(terms[k].name, name)) return terms[k].formula;
+  return NULL;
+}

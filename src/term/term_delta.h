@@ -1,0 +1,27 @@
+/* term_delta.h -- density diffusion of the delta-SPH family, added to d rho_i/dt.
+ *
+ *   D_i = delta h c0 sum_j V_j psi_ij . grad_i W_ij
+ *   Molteni & Colagrossi (2009):  psi_ij = 2 (rho_j - rho_i) (r_j - r_i)/r^2
+ *   Antuono et al. (2010):        psi_ij = 2 (rho_j - rho_i) (r_j - r_i)/r^2 - (<grad rho>^L_i + <grad rho>^L_j)
+ *
+ * sum V D = 0; Antuono's vanishes for a linear density, also at free surfaces.  A wall has no gradient of its own: it
+ * mirrors that of i.  The factor delta h c0 is applied to the sum (fluid_rates.c). */
+#ifndef SPH_TERM_DELTA_H
+#define SPH_TERM_DELTA_H
+#include "fluid_pair.h"
+
+BODY void term_delta_molteni(const pair *p, const particle *i, const particle *j, vec *sum)
+{
+  sum[SPH_SUM_DIFFUSION] += 2 * (i->rho - j->rho) * p->VF;
+}
+
+BODY void term_delta_antuono(int dim, unsigned terms, const pair *p, const particle *i,
+                             const particle *j, vec *sum)
+{
+  vec gradients[3];
+  for (int d = 0; d < dim; d++)
+    gradients[d] = i->extra[d] + (terms & SPH_WALL ? i->extra[d] : j->extra[d]);
+  sum[SPH_SUM_DIFFUSION] += (2 * (i->rho - j->rho) - fluid_dot(dim, gradients, p->r)) * p->VF;
+}
+
+#endif
