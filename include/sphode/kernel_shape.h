@@ -6,8 +6,8 @@
  *
  * The three functions at the end take kernel and dim as constants and compile to the formulas
  * alone.  They are finite at q = 0 and zero for q >= kappa, without branches: a loop needs no
- * test of the distance.  f never divides by q, and is a sum of terms of one sign: it does not
- * change sign by rounding at the edge of the support.
+ * test of the distance.  f never divides by a small q, and is a sum of terms of one sign: it
+ * does not change sign by rounding at the edge of the support.
  *
  * A new kernel: its three shapes here and its lines in the two lists; its facts in one row of
  * kernels.def. */
@@ -25,15 +25,11 @@
   X(SPH_KERNEL_WENDLAND_C2, kernel_wendland_c2) \
   X(SPH_KERNEL_CUBIC_SPLINE, kernel_cubic_spline)
 
-enum sph_kernel_number { /* that of sph_kernel_get */
 #define SPH_KERNEL_NUMBER(number) number,
-                         SPH_KERNEL_LIST(SPH_KERNEL_NUMBER)
+enum { SPH_KERNEL_LIST(SPH_KERNEL_NUMBER) SPH_KERNELS }; /* that of sph_kernel_get; how many */
 #undef SPH_KERNEL_NUMBER
-                             SPH_KERNELS
-};
 
-/* Wendland (1995), C2: w = t^3 (1 + 3q/2) in 1D, t^4 (1 + 2q) in 2D and 3D, t = 1 - q/2, kappa =
- * 2. */
+/* Wendland (1995), C2, t = 1 - q/2, kappa = 2: w = t^3 (1 + 3q/2) in 1D, t^4 (1 + 2q) in 2D, 3D. */
 BODY vec kernel_wendland_c2_w(int dim, vec q)
 {
   vec t = v_max0(1 - 0.5 * q);
@@ -51,8 +47,8 @@ BODY vec kernel_wendland_c2_laplacian(int dim, vec q)
   return dim == 2 ? 2.5 * t * t * (5 * q - 4) : 15 * t * t * (q - 1);
 }
 
-/* Cubic B-spline M4 (Monaghan & Lattanzio 1985): w = (s^3 - 4 u^3)/4, s = (2 - q)+, u = (1 - q)+,
- * kappa = 2. */
+/* Cubic B-spline M4 (Monaghan & Lattanzio 1985), s = (2 - q)+, u = (1 - q)+, kappa = 2:
+ * w = (s^3 - 4 u^3)/4,  -(4/3) f = s^2/q for q >= 1, 4 - 3q = s^2 + q u below,  w'' = 3s/2 - 6u */
 BODY vec kernel_cubic_spline_w(int dim, vec q)
 {
   (void)dim;

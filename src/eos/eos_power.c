@@ -1,5 +1,4 @@
-/* What the power laws share (Cole 1948; gamma = 1: linear).  With e = rho/rho0 - 1, B = rho0
- * c0^2/gamma:
+/* What the power laws share (Cole 1948; gamma = 1: linear), e = rho/rho0 - 1, B = rho0 c0^2/gamma:
  *
  *   p     = B [(1 + e)^gamma - 1] + p_b, cut: max(p, p_min)
  *   rho   = rho0 [1 + (p - p_b)/B]^(1/gamma)

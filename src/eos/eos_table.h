@@ -6,8 +6,7 @@
 #define SPH_EOS_TABLE_H
 #include "sphode/eos.h"
 
-/* Refuses what could not be run: SPH_ERR_ARGUMENT with the member, its value and what would be
- * right. */
+/* Refuses what cannot be run: SPH_ERR_ARGUMENT with the member, its value, what would be right. */
 int sph_eos_check(const sph_eos *eos, sph_error *error);
 
 /* What the built-in ones ask for beyond that. */
@@ -15,8 +14,7 @@ int sph_eos_tait_check(const sph_eos *eos, sph_error *error);
 int sph_eos_linear_check(const sph_eos *eos, sph_error *error);
 int sph_eos_ideal_gas_check(const sph_eos *eos, sph_error *error);
 
-/* Power law p - p_b = (rho0 c0^2/gamma) [(rho/rho0)^gamma - 1], gamma >= 1; the linear one is
- * gamma = 1. */
+/* Of p - p_b = (rho0 c0^2/gamma) [(rho/rho0)^gamma - 1], gamma >= 1 (the linear one: 1). */
 double sph_eos_power_density(const sph_eos *eos, double gamma, double p);          /* [kg/m^3] */
 double sph_eos_power_elastic_energy(const sph_eos *eos, double gamma, double rho); /* [J/kg] */
 
