@@ -80,6 +80,7 @@ typedef struct sph_sim_stats {
   double
       pairs; /* directed pairs inside the support, summed over right-hand sides (estimated from each list) */
   double seconds; /* wall time inside sph_sim_run and sph_sim_step */
+  double rhs_seconds; /* of these, inside the right-hand side */
   long list_builds;
   double bytes; /* memory held */
 } sph_sim_stats;

@@ -70,7 +70,7 @@ struct sph_sim {
   int derived;                               /* pressure etc. are those of the state shown */
   double limit_cfl, limit_force, limit_user; /* step limits of the last evaluation [s] */
   double pairs_now; /* directed pairs inside the support, at the last list build */
-  double pairs, seconds;
+  double pairs, seconds, rhs_seconds;
   long list_builds, revision;
 };
 

@@ -21,6 +21,7 @@ void sph_sim_get_stats(const sph_sim *sim, sph_sim_stats *stats)
   if (sim->integrator) stats->step = *sph_integrator_stats(sim->integrator);
   stats->pairs = sim->pairs;
   stats->seconds = sim->seconds;
+  stats->rhs_seconds = sim->rhs_seconds;
   stats->list_builds = sim->list_builds;
   stats->bytes = held(sim);
 }

@@ -2,6 +2,7 @@
  * build only; nothing else is kept from one call to the next. */
 #include "sim_rhs.h"
 
+#include "clock.h"
 #include "comm.h"
 
 static void views(sph_evaluation *e, N_Vector y, N_Vector ydot)
@@ -11,21 +12,30 @@ static void views(sph_evaluation *e, N_Vector y, N_Vector ydot)
                                      ydot ? sph_nvector_data(ydot) : NULL);
 }
 
-int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *sim)
+static int phases(sph_evaluation *e)
 {
+  int status = sph_sim_walls_move(e);
+  if (!status) status = sph_sim_lists_update(e); /* neighbors */
+  if (!status) status = sph_comm_exchange(SPH_COMM_STATE);
+  if (!status) status = sph_sim_material_eos(e); /* eos */
+  if (!status) status = sph_sim_bodies_add(e);   /* bodies */
+  if (!status) status = sph_sim_walls_fill(e);   /* walls */
+  if (!status) status = sph_comm_exchange(SPH_COMM_WALLS);
+  if (!status) status = sph_sim_gradients(e); /* prepare */
+  if (!status) status = sph_comm_exchange(SPH_COMM_GRADIENTS);
+  if (!status) status = sph_sim_pairs_add(e); /* pairs */
+  if (!status) status = sph_sim_admit(e);     /* admit */
+  return status;
+}
+
+int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *ctx)
+{
+  sph_sim *sim = ctx;
+  double begin = sph_clock();
   sph_evaluation e = {.sim = sim, .t = t};
   views(&e, y, ydot);
-  int status = sph_sim_walls_move(&e);
-  if (!status) status = sph_sim_lists_update(&e); /* neighbors */
-  if (!status) status = sph_comm_exchange(SPH_COMM_STATE);
-  if (!status) status = sph_sim_material_eos(&e); /* eos */
-  if (!status) status = sph_sim_bodies_add(&e);   /* bodies */
-  if (!status) status = sph_sim_walls_fill(&e);   /* walls */
-  if (!status) status = sph_comm_exchange(SPH_COMM_WALLS);
-  if (!status) status = sph_sim_gradients(&e); /* prepare */
-  if (!status) status = sph_comm_exchange(SPH_COMM_GRADIENTS);
-  if (!status) status = sph_sim_pairs_add(&e); /* pairs */
-  if (!status) status = sph_sim_admit(&e);     /* admit */
+  int status = phases(&e);
+  sim->rhs_seconds += sph_clock() - begin;
   return status;
 }
 

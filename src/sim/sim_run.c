@@ -1,20 +1,12 @@
 /* The run: steps, and frames at their exact times by dense output, so that no frame shortens a step. */
-#define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
+#include "clock.h"
 #include "sim_prepare.h"
 #include "sim_rhs.h"
 #include "sim_run.h"
-
-static double seconds(void)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static void show(sph_sim *sim, double t, N_Vector state)
 {
@@ -107,10 +99,10 @@ static int step(sph_sim *sim, double t_stop)
 
 int sph_sim_step(sph_sim *sim)
 {
-  double begin = seconds();
+  double begin = sph_clock();
   int status = sph_sim_prepare(sim);
   if (!status) status = step(sim, INFINITY);
-  if (sim) sim->seconds += seconds() - begin;
+  if (sim) sim->seconds += sph_clock() - begin;
   return status;
 }
 
@@ -137,9 +129,9 @@ static int run(sph_sim *sim, double t_end)
 
 int sph_sim_run(sph_sim *sim, double t_end)
 {
-  double begin = seconds();
+  double begin = sph_clock();
   int status = run(sim, t_end);
-  if (sim) sim->seconds += seconds() - begin;
+  if (sim) sim->seconds += sph_clock() - begin;
   return status;
 }
 

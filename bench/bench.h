@@ -1,0 +1,16 @@
+/* bench.h -- the benchmark's harness: figures by name, as a table or as JSON lines. */
+#ifndef BENCH_H
+#define BENCH_H
+
+/* Seconds of this thread's CPU. */
+double bench_thread_seconds(void);
+/* Is a figure of that name asked for (--filter)? */
+int bench_wanted(const char *name);
+/* One figure: median of values[n], with its spread (max - min)/median. */
+void bench_report(const char *name, const char *unit, double *values, int n);
+int bench_quick(void); /* --quick: small sizes */
+
+void bench_rhs(void);         /* right-hand sides */
+void bench_integration(void); /* time integration around the right-hand side */
+
+#endif
