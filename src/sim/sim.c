@@ -5,10 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "clock.h"
 #include "cpu.h"
 #include "memory.h"
 #include "sim_data.h"
 #include "sim_prepare.h"
+#include "sim_rhs.h"
+#include "sim_run.h"
 
 static int positive(sph_error *error, const char *name, double value)
 {
@@ -211,10 +214,38 @@ sph_group *sph_sim_group_get(const sph_sim *sim, int k)
 void sph_sim_free(sph_sim *sim)
 {
   if (!sim) return;
+  sph_sim_run_close(sim);
   sph_sim_prepare_undo(sim);
   for (int g = 0; g < sim->groups; g++) sph_group_data_free(sim->group[g]);
   for (int k = 0; k < sim->outlets; k++)
     if (sim->outlet[k].output.free) sim->outlet[k].output.free(sim->outlet[k].output.ctx);
   sph_term_set_free(&sim->terms);
   sph_memory_free(sim);
+}
+
+int sph_sim_step(sph_sim *sim)
+{
+  double begin = sph_clock();
+  int status = sph_sim_prepare(sim);
+  if (!status) status = sph_sim_run_step(sim, INFINITY);
+  if (sim) sim->seconds += sph_clock() - begin;
+  return status;
+}
+
+void sph_sim_changed(sph_sim *sim)
+{
+  if (!sph_sim_data_ok(sim) || !sim->prepared) return;
+  sim->derived = 0;
+  sph_integrator_reset(sim->integrator, sim->time);
+}
+
+int sph_sim_evaluate(sph_sim *sim)
+{
+  int status = sph_sim_prepare(sim);
+  if (status) return status;
+  status = sph_sim_rhs(sim->time, sim->shown, sim->ydot, sim);
+  if (status > 0)
+    status = sph_sim_fail(sim, SPH_ERR_ARGUMENT, "the state is not admissible: %s", sim->retry);
+  sim->derived = !status;
+  return status;
 }

@@ -1,6 +1,7 @@
 #include "sim_prepare.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "cpu.h"
 #include "fluid_loops.h"
@@ -67,6 +68,15 @@ static int check_values(sph_sim *sim)
     }
   }
   return SPH_OK;
+}
+
+/* Positions may have been written since walls were added: their motion starts there. */
+static void start_walls(sph_sim *sim)
+{
+  for (int g = 0; g < sim->groups; g++)
+    for (int d = 0; sim->group[g]->wall && d < sim->dim; d++)
+      memcpy(sim->group[g]->start[d], sim->group[g]->own[SPH_POSITION][d],
+             (size_t)sim->group[g]->n * sizeof(double));
 }
 
 /* The loop over fluid pairs: its terms and constants (fluid_pair.h). */
@@ -192,6 +202,7 @@ int sph_sim_prepare(sph_sim *sim)
   int status = sph_term_set_check(&sim->terms, &sim->error);
   if (!status) status = check_groups(sim);
   if (!status) status = check_values(sim);
+  if (!status) start_walls(sim);
   if (!status) make_constants(sim);
   if (!status) status = make_vectors(sim);
   for (int g = 0; !status && g < sim->groups; g++) status = make_sorted(sim, g);

@@ -47,7 +47,8 @@ static int frames(sph_sim *sim)
   int status = SPH_OK;
   for (int k = 0; !status && k < sim->outlets; k++) {
     sph_outlet *outlet = &sim->outlet[k];
-    for (double t = due(sim, outlet); !status && t <= now; t = due(sim, outlet)) {
+    double slack = 1e-9 * outlet->output.interval; /* a frame at the end is not lost to rounding */
+    for (double t = due(sim, outlet); !status && t <= now + slack; t = due(sim, outlet)) {
       if (t < now) {
         status = sph_integrator_interpolate(sim->integrator, t, sim->frame);
         show(sim, t, sim->frame);
@@ -73,8 +74,7 @@ static int open_outputs(sph_sim *sim)
   return status;
 }
 
-/* Also after a failure: what was written stays, and is complete. */
-static void close_outputs(sph_sim *sim)
+void sph_sim_run_close(sph_sim *sim)
 {
   for (int k = 0; k < sim->outlets; k++) {
     sph_outlet *outlet = &sim->outlet[k];
@@ -84,7 +84,7 @@ static void close_outputs(sph_sim *sim)
   }
 }
 
-static int step(sph_sim *sim, double t_stop)
+int sph_sim_run_step(sph_sim *sim, double t_stop)
 {
   sim->retry[0] = 0;
   int status = sph_integrator_step(sim->integrator, t_stop);
@@ -94,15 +94,6 @@ static int step(sph_sim *sim, double t_stop)
     snprintf(sim->error.text + used, sizeof sim->error.text - used, "; the last reason: %s",
              sim->retry);
   }
-  return status;
-}
-
-int sph_sim_step(sph_sim *sim)
-{
-  double begin = sph_clock();
-  int status = sph_sim_prepare(sim);
-  if (!status) status = step(sim, INFINITY);
-  if (sim) sim->seconds += sph_clock() - begin;
   return status;
 }
 
@@ -116,15 +107,15 @@ static int run(sph_sim *sim, double t_end)
                         sim->time);
   status = open_outputs(sim);
   while (!status && sim->time < t_end) {
-    status = step(sim, t_end);
+    status = sph_sim_run_step(sim, t_end);
     if (!status) status = frames(sim);
     if (!status && sim->progress && sim->progress(sim->progress_ctx, sim))
       status = sph_sim_fail(sim, SPH_ERR_STOPPED, "stopped on request at t = %g s", sim->time);
   }
   for (int k = 0; !status && k < sim->outlets; k++) /* INFINITY: start and end only */
     if (isinf(sim->outlet[k].output.interval)) status = frame(sim, &sim->outlet[k]);
-  close_outputs(sim);
-  return status ? status : sim->error.status;
+  if (status) sph_sim_run_close(sim);
+  return status;
 }
 
 int sph_sim_run(sph_sim *sim, double t_end)
@@ -132,23 +123,5 @@ int sph_sim_run(sph_sim *sim, double t_end)
   double begin = sph_clock();
   int status = run(sim, t_end);
   if (sim) sim->seconds += sph_clock() - begin;
-  return status;
-}
-
-void sph_sim_changed(sph_sim *sim)
-{
-  if (!sph_sim_data_ok(sim) || !sim->prepared) return;
-  sim->derived = 0;
-  sph_integrator_reset(sim->integrator, sim->time);
-}
-
-int sph_sim_evaluate(sph_sim *sim)
-{
-  int status = sph_sim_prepare(sim);
-  if (status) return status;
-  status = sph_sim_rhs(sim->time, sim->shown, sim->ydot, sim);
-  if (status > 0)
-    status = sph_sim_fail(sim, SPH_ERR_ARGUMENT, "the state is not admissible: %s", sim->retry);
-  sim->derived = !status;
   return status;
 }

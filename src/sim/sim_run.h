@@ -5,5 +5,9 @@
 
 /* Makes pressure, sound speed and walls those of the state shown, if they are not. */
 int sph_sim_run_derived(sph_sim *sim);
+/* One accepted step, not past t_stop, of a prepared simulation. */
+int sph_sim_run_step(sph_sim *sim, double t_stop);
+/* Closes all outputs: after a failure, or when the simulation ends. */
+void sph_sim_run_close(sph_sim *sim);
 
 #endif
