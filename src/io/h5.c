@@ -1,0 +1,149 @@
+#include "h5.h"
+
+#include <pthread.h>
+#include <string.h>
+
+#include "memory.h"
+
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* HDF5's state is the process's */
+
+void sph_h5_enter(sph_h5 *h5)
+{
+  pthread_mutex_lock(&lock);
+  *h5 = (sph_h5){0};
+  H5Eget_auto2(H5E_DEFAULT, &h5->handler, &h5->handler_data);
+  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+}
+
+void sph_h5_leave(sph_h5 *h5)
+{
+  H5Eclear2(H5E_DEFAULT);
+  H5Eset_auto2(H5E_DEFAULT, h5->handler, h5->handler_data);
+  pthread_mutex_unlock(&lock);
+}
+
+static void check(sph_h5 *h5, int ok)
+{
+  if (!ok) h5->failed = 1;
+}
+
+hid_t sph_h5_group(sph_h5 *h5, hid_t where, const char *name)
+{
+  if (h5->failed) return H5I_INVALID_HID;
+  hid_t group = H5Gcreate2(where, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  check(h5, group >= 0);
+  return group;
+}
+
+static void attribute(sph_h5 *h5, hid_t where, const char *name, hid_t stored, hid_t given,
+                      hsize_t count, const void *value)
+{
+  if (h5->failed) return;
+  hid_t space = count ? H5Screate_simple(1, &count, NULL) : H5Screate(H5S_SCALAR);
+  hid_t made = H5Acreate2(where, name, stored, space, H5P_DEFAULT, H5P_DEFAULT);
+  check(h5, made >= 0 && H5Awrite(made, given, value) >= 0);
+  if (made >= 0) H5Aclose(made);
+  H5Sclose(space);
+}
+
+void sph_h5_real(sph_h5 *h5, hid_t where, const char *name, hsize_t count, const double *value)
+{
+  attribute(h5, where, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, count, value);
+}
+
+void sph_h5_integer(sph_h5 *h5, hid_t where, const char *name, hsize_t count, const int *value)
+{
+  attribute(h5, where, name, H5T_STD_I32LE, H5T_NATIVE_INT, count, value);
+}
+
+/* The type of exactly this string, without its NUL; ASCII where it is, as VTK wants it. */
+static hid_t string_type(const char *value)
+{
+  int ascii = 1;
+  for (const char *c = value; *c; c++) ascii = ascii && (unsigned char)*c < 0x80;
+  hid_t type = H5Tcopy(H5T_C_S1);
+  size_t length = strlen(value);
+  H5Tset_size(type, length ? length : 1);
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  H5Tset_cset(type, ascii ? H5T_CSET_ASCII : H5T_CSET_UTF8);
+  return type;
+}
+
+void sph_h5_string(sph_h5 *h5, hid_t where, const char *name, const char *value)
+{
+  hid_t type = string_type(value);
+  attribute(h5, where, name, type, type, 0, value);
+  H5Tclose(type);
+}
+
+void sph_h5_text(sph_h5 *h5, hid_t where, const char *name, const char *value)
+{
+  if (h5->failed) return;
+  hid_t type = string_type(value), space = H5Screate(H5S_SCALAR);
+  hid_t made = H5Dcreate2(where, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  check(h5, made >= 0 && H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0);
+  if (made >= 0) H5Dclose(made);
+  H5Sclose(space);
+  H5Tclose(type);
+}
+
+/* Chunks of at most 16384 rows, shuffled and deflated where the library can; none for no rows. */
+static hid_t layout(int rank, const hsize_t *size)
+{
+  hid_t list = H5Pcreate(H5P_DATASET_CREATE);
+  if (size[0] == 0) return list;
+  hsize_t chunk[2] = {size[0] < 16384 ? size[0] : 16384, size[1]};
+  H5Pset_chunk(list, rank, chunk);
+  H5Pset_obj_track_times(list, 0); /* the same run gives the same bytes */
+  if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
+    H5Pset_shuffle(list);
+    H5Pset_deflate(list, 1);
+  }
+  return list;
+}
+
+void sph_h5_array(sph_h5 *h5, hid_t where, const char *name, hid_t stored, hid_t given,
+                  hsize_t rows, hsize_t columns, const void *data)
+{
+  if (h5->failed) return;
+  int rank = columns ? 2 : 1;
+  hsize_t size[2] = {rows, columns};
+  hid_t space = H5Screate_simple(rank, size, NULL), list = layout(rank, size);
+  hid_t made = H5Dcreate2(where, name, stored, space, H5P_DEFAULT, list, H5P_DEFAULT);
+  check(h5,
+        made >= 0 && (!rows || H5Dwrite(made, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0));
+  if (made >= 0) H5Dclose(made);
+  H5Pclose(list);
+  H5Sclose(space);
+}
+
+void sph_h5_link(sph_h5 *h5, hid_t from, const char *name, hid_t to, const char *as)
+{
+  if (h5->failed) return;
+  check(h5, H5Lcreate_hard(from, name, to, as, H5P_DEFAULT, H5P_DEFAULT) >= 0);
+}
+
+hid_t sph_h5_create(sph_h5 *h5, const char *name)
+{
+  hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_fapl_core(access, (size_t)1 << 22, 0);
+  hid_t file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  H5Pclose(access);
+  check(h5, file >= 0);
+  return file;
+}
+
+void *sph_h5_close(sph_h5 *h5, hid_t file, size_t *size)
+{
+  void *image = NULL;
+  if (file < 0) return NULL;
+  check(h5, H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0);
+  ssize_t bytes = h5->failed ? -1 : H5Fget_file_image(file, NULL, 0);
+  if (bytes > 0) image = sph_memory_take((size_t)bytes, 1);
+  check(h5, image && H5Fget_file_image(file, image, (size_t)bytes) == bytes);
+  H5Fclose(file);
+  *size = bytes > 0 ? (size_t)bytes : 0;
+  if (!h5->failed) return image;
+  sph_memory_free(image);
+  return NULL;
+}

@@ -1,0 +1,304 @@
+/* monitor.c -- front, height, pressure at a point, semi-axis.
+ *
+ *   front      max { x_i : i has >= 3 neighbours j, |x_i - x_j| <= 2 dx } + dx/2
+ *   pressure   p(x) = sum_j V_j p_j W(x - x_j) / sum_j V_j W(x - x_j),  V = m/rho
+ *   semi-axis  a = sqrt((d + 2) sum m (x - <x>)^2 / sum m),  <x> the centre of mass: exact for a
+ *              uniform ellipsoid in d dimensions */
+#include "monitor.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "memory.h"
+#include "sphode/kernel.h"
+
+static const double wet = 0.15; /* smallest sum V W of a wet point */
+enum { FRONT_NEIGHBORS = 3, SAMPLES_MAX = 32, NAME_MAX = 63 };
+
+typedef struct points {
+  int dim;
+  long n;
+  double *x[3]; /* [n] [m]; 0 for d >= dim */
+  double *p;    /* [n] [Pa] */
+  double *v;    /* [n] volumes */
+  void *memory;
+} points;
+
+static int chosen(const sph_monitor *monitor, const sph_group *group)
+{
+  if (strcmp(sph_group_kind(group), "fluid") != 0) return 0;
+  return !monitor->group || !strcmp(monitor->group, sph_group_name(group));
+}
+
+static int take_points(points *all, long capacity, int dim, sph_error *error)
+{
+  double *memory = sph_memory_new((size_t)capacity, 5 * sizeof *memory, "a monitor", error);
+  *all = (points){.dim = dim, .memory = memory};
+  if (!memory) return SPH_ERR_MEMORY;
+  for (int d = 0; d < 3; d++) all->x[d] = memory + d * capacity;
+  all->p = memory + 3 * capacity;
+  all->v = memory + 4 * capacity;
+  return SPH_OK;
+}
+
+/* Copies the particles of the chosen groups that lie in [lo, hi]. */
+static int gather(const sph_monitor *monitor, const sph_sim *sim, const double lo[3],
+                  const double hi[3], points *all, sph_error *error)
+{
+  const sph_group *group;
+  long capacity = 0;
+  for (int k = 0; (group = sph_sim_group_get(sim, k)); k++)
+    if (chosen(monitor, group)) capacity += sph_group_count(group);
+  if (take_points(all, capacity, sph_sim_dim(sim), error) != SPH_OK) return SPH_ERR_MEMORY;
+  for (int k = 0; (group = sph_sim_group_get(sim, k)); k++) {
+    if (!chosen(monitor, group)) continue;
+    const double *x[3] = {NULL}, *p = sph_group_read(group, "pressure", 0);
+    const double *m = sph_group_read(group, "mass", 0), *rho = sph_group_read(group, "density", 0);
+    for (int d = 0; d < all->dim; d++) x[d] = sph_group_read(group, "position", d);
+    for (long i = 0; i < sph_group_count(group); i++) {
+      int inside = 1;
+      for (int d = 0; d < all->dim; d++) inside &= x[d][i] >= lo[d] && x[d][i] <= hi[d];
+      if (!inside) continue;
+      for (int d = 0; d < all->dim; d++) all->x[d][all->n] = x[d][i];
+      all->p[all->n] = p ? p[i] : 0;
+      all->v[all->n++] = m[i] / rho[i];
+    }
+  }
+  return SPH_OK;
+}
+
+/* A heap with the largest key on top. */
+static void sift(int *heap, long n, long i, const double *key)
+{
+  for (long child; (child = 2 * i + 1) < n; i = child) {
+    if (child + 1 < n && key[heap[child + 1]] > key[heap[child]]) child++;
+    if (key[heap[i]] >= key[heap[child]]) return;
+    int swap = heap[i];
+    heap[i] = heap[child];
+    heap[child] = swap;
+  }
+}
+
+static int near(const points *all, int i, int j, double reach)
+{
+  double r2 = 0;
+  for (int d = 0; d < all->dim; d++) {
+    double x = all->x[d][i] - all->x[d][j];
+    r2 += x * x;
+  }
+  return r2 <= reach * reach * (1 + 1e-12);
+}
+
+/* Neighbours of the particle in place c among those in places [first, n), which fall with the place
+ * from the far end; no more than are needed. */
+static int neighbors(const points *all, const int *order, long first, long n, long c, int axis,
+                     double reach)
+{
+  int found = 0;
+  const double *key = all->x[axis];
+  for (long j = c + 1; j < n && key[order[j]] - key[order[c]] <= reach; j++)
+    if (found < FRONT_NEIGHBORS) found += near(all, order[c], order[j], reach);
+  for (long j = c - 1; j >= first && found < FRONT_NEIGHBORS; j--)
+    found += near(all, order[c], order[j], reach);
+  return found;
+}
+
+/* From the far end inwards: sorts (heap sort, stopped early) only as far as it must look. */
+static double front(const points *all, int *order, int axis, double dx)
+{
+  const double *key = all->x[axis], reach = 2 * dx;
+  long left = all->n; /* places [0, left) are the heap, [left, n) are sorted */
+  for (long i = 0; i < all->n; i++) order[i] = (int)i;
+  for (long i = all->n / 2; i-- > 0;) sift(order, all->n, i, key);
+  for (long c = all->n - 1; c >= 0; c--) {
+    while (left > 0 && (left > c || key[order[0]] >= key[order[c]] - reach * (1 + 1e-12))) {
+      int top = order[0];
+      order[0] = order[--left];
+      order[left] = top;
+      sift(order, left, 0, key);
+    }
+    if (neighbors(all, order, left, all->n, c, axis, reach) >= FRONT_NEIGHBORS)
+      return key[order[c]] + dx / 2;
+  }
+  return NAN;
+}
+
+static int value_front(const sph_monitor *monitor, const sph_sim *sim, double *value,
+                       sph_error *error)
+{
+  static const double lo[3] = {-INFINITY, -INFINITY, -INFINITY};
+  static const double hi[3] = {INFINITY, INFINITY, INFINITY};
+  int axis = strcmp(monitor->type, "height") ? monitor->axis : sph_sim_dim(sim) - 1;
+  points all = {0};
+  int *order = NULL;
+  int status = gather(monitor, sim, lo, hi, &all, error);
+  if (status == SPH_OK) {
+    order = SPH_NEW(int, all.n, "a monitor", error);
+    status = order ? SPH_OK : SPH_ERR_MEMORY;
+  }
+  if (status == SPH_OK) *value = front(&all, order, axis, sph_sim_dx(sim));
+  sph_memory_free(order);
+  sph_memory_free(all.memory);
+  return status;
+}
+
+static double pressure_at(const points *near_by, const double x[3], const sph_kernel *kernel,
+                          double h)
+{
+  double sum = 0, weight = 0;
+  for (long j = 0; j < near_by->n; j++) {
+    double r2 = 0;
+    for (int d = 0; d < near_by->dim; d++) {
+      double s = near_by->x[d][j] - x[d];
+      r2 += s * s;
+    }
+    double w = near_by->v[j] * sph_kernel_w(kernel, near_by->dim, sqrt(r2), h);
+    weight += w;
+    sum += w * near_by->p[j];
+  }
+  return weight >= wet ? sum / weight : 0;
+}
+
+/* The mean over the samples x + e s/m, s = -m .. m, inside the ellipsoid with half lengths e. */
+static double pressure_mean(const sph_monitor *monitor, const points *near_by,
+                            const sph_kernel *kernel, double h, double dx)
+{
+  int m[3];
+  double sum = 0, samples = 0;
+  for (int d = 0; d < 3; d++)
+    m[d] = d < near_by->dim ? (int)fmin(ceil(monitor->extent[d] / dx - 1e-9), SAMPLES_MAX) : 0;
+  for (int a = -m[0]; a <= m[0]; a++)
+    for (int b = -m[1]; b <= m[1]; b++)
+      for (int c = -m[2]; c <= m[2]; c++) {
+        double x[3], r2 = 0;
+        const int s[3] = {a, b, c};
+        for (int d = 0; d < 3; d++) {
+          double q = m[d] ? (double)s[d] / m[d] : 0;
+          x[d] = monitor->x[d] + q * monitor->extent[d];
+          r2 += q * q;
+        }
+        if (r2 > 1 + 1e-12) continue;
+        sum += pressure_at(near_by, x, kernel, h);
+        samples++;
+      }
+  return sum / samples;
+}
+
+static int value_pressure(const sph_monitor *monitor, const sph_sim *sim, double *value,
+                          sph_error *error)
+{
+  const sph_kernel *kernel = sph_kernel_find(sph_sim_kernel(sim));
+  double lo[3], hi[3], h = sph_sim_h(sim);
+  points near_by = {0};
+  if (!kernel)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "monitor %s: kernel \"%s\" is not known",
+                         monitor->name, sph_sim_kernel(sim));
+  for (int d = 0; d < 3; d++) {
+    double reach = monitor->extent[d] + sph_kernel_support(kernel) * h;
+    lo[d] = monitor->x[d] - reach;
+    hi[d] = monitor->x[d] + reach;
+  }
+  int status = gather(monitor, sim, lo, hi, &near_by, error);
+  if (status == SPH_OK) *value = pressure_mean(monitor, &near_by, kernel, h, sph_sim_dx(sim));
+  sph_memory_free(near_by.memory);
+  return status;
+}
+
+/* sum m (x - shift)^power over the chosen groups. */
+static double moment(const sph_monitor *monitor, const sph_sim *sim, double shift, int power)
+{
+  const sph_group *group;
+  double sum = 0;
+  for (int k = 0; (group = sph_sim_group_get(sim, k)); k++) {
+    if (!chosen(monitor, group)) continue;
+    const double *x = sph_group_read(group, "position", monitor->axis);
+    const double *m = sph_group_read(group, "mass", 0);
+    for (long i = 0; i < sph_group_count(group); i++) {
+      double s = x[i] - shift;
+      sum += m[i] * (power == 0 ? 1 : power == 1 ? s : s * s);
+    }
+  }
+  return sum;
+}
+
+static int value_semi_axis(const sph_monitor *monitor, const sph_sim *sim, double *value,
+                           sph_error *error)
+{
+  (void)error;
+  double mass = moment(monitor, sim, 0, 0), centre = moment(monitor, sim, 0, 1) / mass;
+  *value = sqrt((sph_sim_dim(sim) + 2) * moment(monitor, sim, centre, 2) / mass);
+  return SPH_OK;
+}
+
+static const struct {
+  const char *name, *unit;
+  int (*value)(const sph_monitor *monitor, const sph_sim *sim, double *value, sph_error *error);
+} types[] = {
+    {"front", "m", value_front},
+    {"height", "m", value_front},
+    {"pressure", "Pa", value_pressure},
+    {"semi-axis", "m", value_semi_axis},
+};
+enum { TYPES = sizeof types / sizeof *types };
+
+static int find(const char *type)
+{
+  for (int k = 0; type && k < TYPES; k++)
+    if (!strcmp(types[k].name, type)) return k;
+  return -1;
+}
+
+const char *sph_monitor_type(int k) { return k >= 0 && k < TYPES ? types[k].name : NULL; }
+
+const char *sph_monitor_unit(const char *type)
+{
+  int k = find(type);
+  return k < 0 ? NULL : types[k].unit;
+}
+
+static int check_name(const char *name, sph_error *error)
+{
+  static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-";
+  size_t length = name ? strlen(name) : 0;
+  if (length > 0 && length <= NAME_MAX && name[strspn(name, allowed)] == '\0') return SPH_OK;
+  return sph_error_set(error, SPH_ERR_ARGUMENT,
+                       "monitor name \"%.80s\": 1 to %d letters, digits, _ . - are right",
+                       name ? name : "", NAME_MAX);
+}
+
+static int check_place(const sph_monitor *monitor, int dim, sph_error *error)
+{
+  if (monitor->axis < 0 || monitor->axis >= dim)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "monitor %s: axis %d; 0 to %d are right",
+                         monitor->name, monitor->axis, dim - 1);
+  for (int d = 0; d < 3; d++)
+    if (!isfinite(monitor->x[d]) || !(monitor->extent[d] >= 0) || !isfinite(monitor->extent[d]))
+      return sph_error_set(error, SPH_ERR_ARGUMENT,
+                           "monitor %s: x[%d] = %g m, extent[%d] = %g m; finite, extent >= 0",
+                           monitor->name, d, monitor->x[d], d, monitor->extent[d]);
+  return SPH_OK;
+}
+
+int sph_monitor_check(const sph_monitor *monitor, const sph_sim *sim, sph_error *error)
+{
+  int status = check_name(monitor->name, error);
+  if (status != SPH_OK) return status;
+  if (find(monitor->type) < 0)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "monitor %s: type \"%s\"; front, height, pressure, semi-axis are known",
+                         monitor->name, monitor->type ? monitor->type : "");
+  if (monitor->group) {
+    const sph_group *group = sph_sim_group(sim, monitor->group);
+    if (!group || !chosen(monitor, group))
+      return sph_error_set(error, SPH_ERR_ARGUMENT, "monitor %s: no fluid group \"%s\"",
+                           monitor->name, monitor->group);
+  }
+  return check_place(monitor, sph_sim_dim(sim), error);
+}
+
+int sph_monitor_value(const sph_monitor *monitor, sph_sim *sim, double *value, sph_error *error)
+{
+  int status = sph_monitor_check(monitor, sim, error);
+  if (status != SPH_OK) return status;
+  return types[find(monitor->type)].value(monitor, sim, value, error);
+}

@@ -1,0 +1,166 @@
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "file.h"
+#include "memory.h"
+#include "monitor.h"
+#include "sphode/output.h"
+#include "sphode/sim.h"
+#include "text.h"
+#include "units.h"
+
+typedef struct context {
+  sph_error error; /* of the constructor; told by open */
+  char *directory;
+  char path[SPH_PATH];
+  sph_monitor *monitors; /* [n], strings owned */
+  int n;
+  int fd; /* -1: closed */
+} context;
+
+static char *copy(const char *text, sph_error *error)
+{
+  return text ? sph_memory_string(text, error) : NULL;
+}
+
+static void header(const context *c, int dim, sph_text *row)
+{
+  static const char *const energies[] = {"kinetic", "potential", "internal", "total"};
+  sph_text_add(row, "time [s],step,dt [s]");
+  for (int k = 0; k < 4; k++)
+    sph_text_add(row, ",%s [%s]", energies[k], sph_units_get(SPH_UNIT_ENERGY, dim));
+  for (int d = 0; d < dim; d++)
+    sph_text_add(row, ",momentum_%c [%s]", "xyz"[d], sph_units_get(SPH_UNIT_MOMENTUM, dim));
+  for (int d = dim == 3 ? 0 : 2; dim > 1 && d < 3; d++)
+    sph_text_add(row, ",angular_momentum_%c [%s]", "xyz"[d],
+                 sph_units_get(SPH_UNIT_ANGULAR_MOMENTUM, dim));
+  for (int k = 0; k < c->n; k++)
+    sph_text_add(row, ",%s [%s]", c->monitors[k].name, sph_monitor_unit(c->monitors[k].type));
+  sph_text_add(row, "\n");
+}
+
+static int numbers(const context *c, sph_sim *sim, sph_text *row, sph_error *error)
+{
+  int dim = sph_sim_dim(sim), status = SPH_OK;
+  sph_balance b;
+  sph_sim_stats stats;
+  sph_sim_balance(sim, &b);
+  sph_sim_get_stats(sim, &stats);
+  sph_text_add(row, "%.15g,%ld,%.15g", sph_sim_time(sim), stats.step.steps, stats.step.dt_last);
+  sph_text_add(row, ",%.15g,%.15g,%.15g,%.15g", b.kinetic, b.potential, b.internal, b.total);
+  for (int d = 0; d < dim; d++) sph_text_add(row, ",%.15g", b.momentum[d]);
+  for (int d = dim == 3 ? 0 : 2; dim > 1 && d < 3; d++)
+    sph_text_add(row, ",%.15g", b.angular_momentum[d]);
+  for (int k = 0; status == SPH_OK && k < c->n; k++) {
+    double value = NAN;
+    status = sph_monitor_value(&c->monitors[k], sim, &value, error);
+    sph_text_add(row, ",%.15g", value);
+  }
+  sph_text_add(row, "\n");
+  return status;
+}
+
+/* One write a row; a row that does not fit on the disk is taken back. */
+static int append(context *c, sph_text *row, sph_error *error)
+{
+  int status = sph_error_set(error, row->error.status, "%s", row->error.text);
+  off_t end = lseek(c->fd, 0, SEEK_END);
+  ssize_t done = status == SPH_OK ? write(c->fd, row->data, row->length) : 0;
+  if (status == SPH_OK && done != (ssize_t)row->length) {
+    int why = done < 0 ? errno : ENOSPC;
+    if (ftruncate(c->fd, end) != 0) why = errno;
+    status = sph_error_set(error, SPH_ERR_FILE, "cannot write to %s: %s", c->path, strerror(why));
+  }
+  sph_text_free(row);
+  return status;
+}
+
+static int open_series(void *ctx, sph_sim *sim, sph_error *error)
+{
+  context *c = ctx;
+  sph_text row = {0};
+  if (!c) return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: a time series");
+  if (c->error.status != SPH_OK) return sph_error_set(error, c->error.status, "%s", c->error.text);
+  int status = SPH_OK;
+  for (int k = 0; status == SPH_OK && k < c->n; k++)
+    status = sph_monitor_check(&c->monitors[k], sim, error);
+  if (status == SPH_OK) status = sph_file_make_directory(c->directory, error);
+  if (status == SPH_OK) status = sph_file_path(c->path, c->directory, "series.csv", error);
+  if (status != SPH_OK) return status;
+  c->fd = open(c->path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
+  if (c->fd < 0)
+    return sph_error_set(error, SPH_ERR_FILE, "cannot write %s: %s", c->path, strerror(errno));
+  header(c, sph_sim_dim(sim), &row);
+  return append(c, &row, error);
+}
+
+static int frame_series(void *ctx, sph_sim *sim, sph_error *error)
+{
+  sph_text row = {0};
+  int status = numbers(ctx, sim, &row, error);
+  if (status == SPH_OK) return append(ctx, &row, error);
+  sph_text_free(&row);
+  return status;
+}
+
+static int close_series(void *ctx, sph_sim *sim, sph_error *error)
+{
+  context *c = ctx;
+  (void)sim;
+  if (!c || c->fd < 0) return SPH_OK;
+  int why = fsync(c->fd) != 0 ? errno : 0;
+  if (close(c->fd) != 0 && !why) why = errno;
+  c->fd = -1;
+  if (!why) return SPH_OK;
+  return sph_error_set(error, SPH_ERR_FILE, "cannot write %s: %s", c->path, strerror(why));
+}
+
+static void free_series(void *ctx)
+{
+  context *c = ctx;
+  if (!c) return;
+  if (c->fd >= 0) close(c->fd);
+  for (int k = 0; c->monitors && k < c->n; k++) {
+    sph_memory_free((void *)c->monitors[k].name);
+    sph_memory_free((void *)c->monitors[k].type);
+    sph_memory_free((void *)c->monitors[k].group);
+  }
+  sph_memory_free(c->monitors);
+  sph_memory_free(c->directory);
+  sph_memory_free(c);
+}
+
+static void copy_monitors(context *c, const sph_monitor *monitors, int n)
+{
+  if (n <= 0) return;
+  c->monitors = SPH_NEW(sph_monitor, n, "monitors", &c->error);
+  for (int k = 0; c->monitors && k < n; k++) {
+    sph_monitor *m = &c->monitors[k];
+    *m = monitors[k];
+    m->name = copy(monitors[k].name, &c->error);
+    m->type = copy(monitors[k].type, &c->error);
+    m->group = copy(monitors[k].group, &c->error);
+    c->n = k + 1;
+  }
+}
+
+sph_output sph_output_series(const char *directory, double interval, const sph_monitor *monitors,
+                             int n)
+{
+  context *c = sph_memory_take(1, sizeof *c);
+  if (c) {
+    c->fd = -1;
+    c->directory = copy(directory, &c->error);
+    copy_monitors(c, monitors, n);
+  }
+  return (sph_output){.name = "series",
+                      .interval = interval,
+                      .open = open_series,
+                      .frame = frame_series,
+                      .close = close_series,
+                      .ctx = c,
+                      .free = free_series};
+}

@@ -1,0 +1,37 @@
+/* snapshot.h -- one frame as an HDF5 file: write it, read it back. */
+#ifndef SPH_SNAPSHOT_H
+#define SPH_SNAPSHOT_H
+#include <stddef.h>
+
+#include "sphode/base.h"
+#include "sphode/sim.h"
+
+enum { SPH_FLUIDS, SPH_WALLS, SPH_PARTS }; /* GADGET's particle types 0 and 1 */
+
+/* The bytes of a snapshot of the state that sim shows (sph_memory_free), or NULL.  name tells whose
+ * file it will be, for messages. */
+void *sph_snapshot_image(const char *name, sph_sim *sim, const char *case_text, const char *command,
+                         size_t *size, sph_error *error);
+/* The bytes of a file whose /VTKHDF is the walls of the snapshot `target` in the same directory. */
+void *sph_snapshot_image_walls(const char *target, size_t *size, sph_error *error);
+
+/* What a picture needs of a snapshot. */
+typedef struct sph_snapshot {
+  int dim;
+  double time, spacing;     /* [s], [m] */
+  long n[SPH_PARTS];        /* particles */
+  double *x[SPH_PARTS];     /* [n][3] [m] */
+  double *value[SPH_PARTS]; /* [n] of the field asked for; NULL: this part has none */
+  char unit[64];            /* of the field */
+} sph_snapshot;
+
+/* field: a name of the field table, with _x, _y, _z for one component of a vector (else its
+ * magnitude). */
+int sph_snapshot_read(const char *path, const char *field, sph_snapshot *snapshot,
+                      sph_error *error);
+void sph_snapshot_free(sph_snapshot *snapshot);
+
+/* The dataset that holds a field of the table ("velocity": "Velocities"). */
+const char *sph_snapshot_dataset(const char *field);
+
+#endif
