@@ -1,0 +1,68 @@
+/* exact.h -- exact solutions: what runs are compared with, and what tests assert.
+ *
+ * Each takes a struct of its parameters by value or const pointer, keeps no state, and answers bad
+ * parameters with SPH_ERR_ARGUMENT and a text. */
+#ifndef SPH_EXACT_H
+#define SPH_EXACT_H
+#include "sphode/base.h"
+#include "sphode/eos.h"
+
+/* --- Riemann problem of an ideal gas in 1D: two states meet at x = 0, t = 0 --- */
+
+typedef struct sph_exact_gas {
+  double rho, u, p; /* density [kg/m^3], velocity [m/s], pressure [Pa] */
+} sph_exact_gas;
+
+typedef struct sph_exact_riemann {
+  double gamma;              /* > 1 */
+  sph_exact_gas left, right; /* rho > 0, p > 0 */
+  /* Filled in by sph_exact_riemann_solve: */
+  double p, u;                 /* between the waves [Pa], [m/s] */
+  double rho_left, rho_right;  /* on both sides of the contact [kg/m^3] */
+  double left_head, left_tail; /* speeds of the left wave [m/s]; a shock: equal */
+  double right_tail, right_head;
+} sph_exact_riemann;
+
+int sph_exact_riemann_solve(sph_exact_riemann *riemann, sph_error *error);
+
+/* The state at x/t [m/s] of a solved one. */
+sph_exact_gas sph_exact_riemann_at(const sph_exact_riemann *riemann, double x_over_t);
+
+/* --- Oscillating drop in 2D: an ellipse of liquid under the force -omega^2 r per mass --- */
+
+typedef struct sph_exact_drop {
+  double radius; /* of the circle at t = 0 [m], > 0 */
+  double rate;   /* v = (rate x, -rate y) at t = 0 [1/s] */
+  double omega;  /* of the force [1/s], >= 0; 0: free drop */
+} sph_exact_drop;
+
+typedef struct sph_exact_ellipse {
+  double a, b; /* semi-axes in x and y [m] */
+  double rate; /* v = (rate x, -rate y) [1/s] */
+  double p0;   /* pressure in the centre / density [m^2/s^2]: p = rho p0 (1 - x^2/a^2 - y^2/b^2) */
+} sph_exact_ellipse;
+
+/* The ellipses[n] at the times t[n] [s], not negative and not falling. */
+int sph_exact_drop_at(const sph_exact_drop *drop, long n, const double *t,
+                      sph_exact_ellipse *ellipses, sph_error *error);
+
+/* --- Column of liquid at rest: dp/dz = -rho g --- */
+
+typedef struct sph_exact_column {
+  sph_eos eos;      /* sph_eos_tait or sph_eos_linear */
+  double surface;   /* height of the free surface [m] */
+  double p_surface; /* pressure there [Pa] */
+  double g;         /* [m/s^2], >= 0 */
+} sph_exact_column;
+
+/* Density rho[n] [kg/m^3] and pressure p[n] [Pa] at heights z[n] [m]; above the surface: as there.
+ * Either may be NULL. */
+int sph_exact_column_at(const sph_exact_column *column, long n, const double *z, double *rho,
+                        double *p, sph_error *error);
+
+/* --- GSL calls abort() on an error unless its process-wide handler is off: between these two, a
+ * lock is held and the handler is off; the user's is put back --- */
+void sph_exact_gsl_begin(void);
+void sph_exact_gsl_end(void);
+
+#endif
