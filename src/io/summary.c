@@ -51,7 +51,12 @@ static int judged(const sph_comparison *c) { return !isnan(c->bar); }
 
 /* ---- JSON: one member a line ---- */
 
-static void member(sph_text *t, const char *name) { sph_text_add(t, ",\n  \"%s\": ", name); }
+/* Spaces before the name are its indentation. */
+static void member(sph_text *t, const char *name)
+{
+  int indent = (int)strspn(name, " ");
+  sph_text_add(t, ",\n  %*s\"%s\": ", indent, "", name + indent);
+}
 
 static void real(sph_text *t, const char *name, double value)
 {

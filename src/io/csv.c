@@ -1,0 +1,114 @@
+#include "csv.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "memory.h"
+
+typedef struct table {
+  const char *path;
+  FILE *file;
+  char line[8192];
+  long number; /* of the line, from 1 */
+} table;
+
+/* The next line that is neither empty nor a comment; 0 at the end. */
+static int next_line(table *t)
+{
+  while (fgets(t->line, sizeof t->line, t->file)) {
+    t->number++;
+    t->line[strcspn(t->line, "\r\n")] = '\0';
+    if (t->line[0] != '#' && t->line[strspn(t->line, " \t")] != '\0') return 1;
+  }
+  return 0;
+}
+
+/* Field number k of the line; NULL behind the last. */
+static const char *field(const table *t, int k)
+{
+  const char *at = t->line;
+  for (; k > 0; k--) {
+    at = strchr(at, ',');
+    if (!at) return NULL;
+    at++;
+  }
+  return at + strspn(at, " \t");
+}
+
+static int same_name(const char *title, const char *name)
+{
+  size_t length = strcspn(title, ",[");
+  while (length > 0 && (title[length - 1] == ' ' || title[length - 1] == '\t')) length--;
+  return strlen(name) == length && !strncmp(title, name, length);
+}
+
+static int find_column(const table *t, const char *name, int column, char title[128],
+                       sph_error *error)
+{
+  const char *at;
+  int k = 0;
+  for (; (at = field(t, k)); k++)
+    if (name ? same_name(at, name) : k == column) break;
+  if (at) {
+    snprintf(title, 128, "%.*s", (int)strcspn(at, ","), at);
+    return k;
+  }
+  if (name)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "%s: no column \"%s\" among %.500s", t->path,
+                         name, t->line);
+  return sph_error_set(error, SPH_ERR_ARGUMENT, "%s: no column %d, there are %d", t->path,
+                       column + 1, k);
+}
+
+static int read_values(table *t, int column, double **values, long *n, sph_error *error)
+{
+  long capacity = 0;
+  while (next_line(t)) {
+    const char *at = field(t, column);
+    char *end = NULL;
+    double value = at ? strtod(at, &end) : 0;
+    if (!at || end == at || end[strspn(end, " \t")] != (at[strcspn(at, ",")] ? ',' : '\0'))
+      return sph_error_set(error, SPH_ERR_PARSE, "%s:%ld: \"%.*s\" in column %d is not a number",
+                           t->path, t->number, at ? (int)strcspn(at, ",") : 0, at ? at : "",
+                           column + 1);
+    if (*n == capacity) {
+      void *grown = *values;
+      long more = 2 * capacity + 256;
+      int status = sph_memory_grow(&grown, (size_t)capacity, (size_t)more, sizeof **values,
+                                   "a column of a table", error);
+      if (status != SPH_OK) return status;
+      *values = grown;
+      capacity = more;
+    }
+    (*values)[(*n)++] = value;
+  }
+  return SPH_OK;
+}
+
+int sph_csv_read(const char *path, const char *name, int column, double **values, long *n,
+                 char title[128], sph_error *error)
+{
+  *values = NULL;
+  *n = 0;
+  table *t = SPH_NEW(table, 1, "a line of a table", error);
+  if (!t) return SPH_ERR_MEMORY;
+  t->path = path ? path : "(none)";
+  t->file = path ? fopen(path, "r") : NULL;
+  int status = SPH_OK;
+  if (!t->file)
+    status = sph_error_set(error, SPH_ERR_FILE, "cannot read %s: %s", t->path,
+                           strerror(path ? errno : ENOENT));
+  else if (!next_line(t))
+    status = sph_error_set(error, SPH_ERR_PARSE, "%s: an empty table", t->path);
+  int found = status == SPH_OK ? find_column(t, name, column, title, error) : status;
+  status = found < 0 ? found : read_values(t, found, values, n, error);
+  if (t->file) fclose(t->file);
+  sph_memory_free(t);
+  if (status == SPH_OK) return status;
+  sph_memory_free(*values);
+  *values = NULL;
+  *n = 0;
+  return status;
+}

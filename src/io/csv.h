@@ -1,0 +1,12 @@
+/* csv.h -- one column of a table: comma separated, # lines are comments, one header line. */
+#ifndef SPH_CSV_H
+#define SPH_CSV_H
+#include "sphode/base.h"
+
+/* Column by name, where a unit in brackets is not part of it ("front" finds "front [m]"), or, name
+ * NULL, number `column` from 0.  *values[*n] (sph_memory_free); title: the header's word, with its
+ * unit.  What is no number is an error with its line. */
+int sph_csv_read(const char *path, const char *name, int column, double **values, long *n,
+                 char title[128], sph_error *error);
+
+#endif

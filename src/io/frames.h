@@ -1,0 +1,11 @@
+/* frames.h -- the snapshots of a directory, in order. */
+#ifndef SPH_FRAMES_H
+#define SPH_FRAMES_H
+#include "sphode/base.h"
+
+/* Their numbers in rising order, *number[count] (sph_memory_free); returns count, < 0: a status. */
+int sph_frames_list(const char *directory, long **number, sph_error *error);
+/* path = directory/snapshot_0012.hdf */
+int sph_frames_path(char path[4096], const char *directory, long number, sph_error *error);
+
+#endif

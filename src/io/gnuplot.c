@@ -1,0 +1,120 @@
+#include "gnuplot.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "file.h"
+
+enum { NO_PROGRAM = 127 };
+
+int sph_gnuplot_names(sph_gnuplot *names, const char *png, sph_error *error)
+{
+  const char *slash = png ? strrchr(png, '/') : NULL, *base = slash ? slash + 1 : png;
+  size_t length = base ? strlen(base) : 0;
+  if (length < 5 || length > 200 || strcmp(base + length - 4, ".png") != 0)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "picture \"%.200s\": a name like x.png is right",
+                         png ? png : "");
+  for (const char *c = base; *c; c++)
+    if ((unsigned char)*c < 0x20 || *c == 0x7f)
+      return sph_error_set(error, SPH_ERR_ARGUMENT, "picture: a control character (%d) in its name",
+                           *c);
+  int before = slash ? (int)(slash - png) : 0;
+  int written = snprintf(names->directory, sizeof names->directory, "%.*s%s", before, png,
+                         !slash        ? "."
+                         : before == 0 ? "/"
+                                       : "");
+  if (written >= (int)sizeof names->directory)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "picture: a path of %d bytes is too long",
+                         before);
+  int stem = (int)length - 4;
+  snprintf(names->png, sizeof names->png, "./%s", base);
+  snprintf(names->script, sizeof names->script, "./%.*s.gp", stem, base);
+  snprintf(names->data, sizeof names->data, "./%.*s.dat", stem, base);
+  return SPH_OK;
+}
+
+void sph_gnuplot_begin(const sph_gnuplot *names, sph_text *script, int width, int height)
+{
+  sph_text_add(script, "# gnuplot %s makes %s\n", names->script + 2, names->png + 2);
+  sph_text_add(script, "set terminal pngcairo size %d, %d font 'Sans,11' background '#ffffff'\n",
+               width, height);
+  sph_text_add(script, "set output ");
+  sph_text_gnuplot_string(script, names->png);
+  sph_text_add(script, "\ndata = ");
+  sph_text_gnuplot_string(script, names->data);
+  sph_text_add(script, "\n"
+                       "set encoding utf8\n"
+                       "set border 31 lc rgb '#666666'\n"
+                       "set tics nomirror out scale 0.6 textcolor rgb '#333333'\n\n");
+}
+
+static void child(const sph_gnuplot *names, int out)
+{
+  if (chdir(names->directory) != 0 || dup2(out, STDERR_FILENO) < 0) _exit(1);
+  dup2(out, STDOUT_FILENO);
+  execlp("gnuplot", "gnuplot", "-d", names->script, (char *)NULL); /* -d: not the user's settings */
+  _exit(errno == ENOENT ? NO_PROGRAM : 1);
+}
+
+/* Runs it; said[size] gets the beginning of what it printed.  Exit status, or -1. */
+static int run(const sph_gnuplot *names, char *said, size_t size)
+{
+  int pipe_ends[2], status = -1;
+  size_t used = 0;
+  if (pipe(pipe_ends) != 0) return -1;
+  for (int k = 0; k < 2; k++) fcntl(pipe_ends[k], F_SETFD, FD_CLOEXEC);
+  pid_t pid = fork();
+  if (pid == 0) child(names, pipe_ends[1]);
+  close(pipe_ends[1]);
+  while (pid > 0) {
+    char rest[512];
+    size_t room = size - 1 - used;
+    ssize_t got = read(pipe_ends[0], room ? said + used : rest, room ? room : sizeof rest);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) break;
+    used += room ? (size_t)got : 0;
+  }
+  said[used] = '\0';
+  close(pipe_ends[0]);
+  while (pid > 0 && waitpid(pid, &status, 0) < 0)
+    if (errno != EINTR) return -1;
+  return pid > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static int draw(const sph_gnuplot *names, sph_error *error)
+{
+  char said[600], path[SPH_PATH];
+  struct stat info;
+  int status = sph_file_path(path, names->directory, names->png + 2, error);
+  if (status != SPH_OK) return status;
+  unlink(path);
+  int code = run(names, said, sizeof said);
+  if (code == NO_PROGRAM)
+    return sph_error_set(error, SPH_ERR_UNBUILT,
+                         "no gnuplot found: install gnuplot-nox (Debian, Ubuntu) or gnuplot "
+                         "(Fedora, Homebrew), then run: gnuplot %s in %.300s",
+                         names->script + 2, names->directory);
+  if (code == 0 && stat(path, &info) == 0 && info.st_size > 0) return SPH_OK;
+  return sph_error_set(error, SPH_ERR_FILE, "gnuplot could not draw %.300s: %s", path, said);
+}
+
+int sph_gnuplot_run(const sph_gnuplot *names, sph_text *script, sph_text *data, sph_error *error)
+{
+  char path[SPH_PATH];
+  sph_text *text[] = {data, script};
+  const char *name[] = {names->data, names->script};
+  int status = sph_file_make_directory(names->directory, error);
+  for (int k = 0; k < 2; k++) {
+    if (status == SPH_OK)
+      status = sph_error_set(error, text[k]->error.status, "%s", text[k]->error.text);
+    if (status == SPH_OK) status = sph_file_path(path, names->directory, name[k] + 2, error);
+    if (status == SPH_OK) status = sph_file_replace(path, text[k]->data, text[k]->length, error);
+    sph_text_free(text[k]);
+  }
+  return status == SPH_OK ? draw(names, error) : status;
+}
