@@ -60,7 +60,7 @@ static sph_eos birch_murnaghan(double rho0, double K0)
                    .elastic_energy = elastic_energy};
 }
 
-/* Amplitude and phase of the wave number k in the velocity. */
+/* The wave of number k in the velocity: amplitude sin(k x + phase). */
 static void measure(const sph_group *rock, double k, double *amplitude, double *phase)
 {
   const double *x = sph_group_read(rock, "position", 0), *v = sph_group_read(rock, "velocity", 0);
@@ -121,7 +121,7 @@ int main(int argc, char **argv)
   double amplitude = 0, phase = 0, speed = 0, expected = 0;
   if (status == SPH_OK) {
     measure(rock, k, &amplitude, &phase);
-    speed = c1 * (1 + phase / (k * L));
+    speed = c1 * (1 - phase / (k * L));
     expected = c1 * lattice_wave_number(sim, k) / k;
     printf("p = %.2f GPa: speed of sound %.1f m/s, on the lattice %.1f m/s (at p = 0: %.1f m/s)\n",
            p1 / 1e9, c1, expected, eos.c0);
