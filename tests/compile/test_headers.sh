@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Every public header compiles alone, as C11 and as C++17.
+cd "$SRCDIR" || exit 99
+headers=(include/sphode.h include/sphode/*.h)
+count=0
+
+compiles() { # name, compiler and flags, header
+  count=$((count + 1))
+  if $2 -Wall -Wextra -Werror -fsyntax-only -Iinclude -include "$3" /dev/null 2>&1 | sed 's/^/# /' &&
+    ((PIPESTATUS[0] == 0)); then
+    echo "ok $count - $3 as $1"
+  else
+    echo "not ok $count - $3 as $1"
+  fi
+}
+
+echo "1..$((2 * ${#headers[@]}))"
+for header in "${headers[@]}"; do
+  compiles C11 "$CC -std=c11 -pedantic -x c" "$header"
+  if [[ -n $CXX ]]; then
+    compiles C++17 "$CXX -std=c++17 -x c++" "$header"
+  else
+    echo "ok $((++count)) - $header as C++17 # SKIP no C++ compiler"
+  fi
+done
