@@ -13,7 +13,7 @@ typedef struct sph_gnuplot {
 int sph_gnuplot_names(sph_gnuplot *names, const char *png, sph_error *error);
 /* Head of a script: terminal of width x height [pixels], output, looks. */
 void sph_gnuplot_begin(const sph_gnuplot *names, sph_text *script, int width, int height);
-/* Writes script and data (both freed), runs gnuplot.  No gnuplot: SPH_ERR_UNBUILT, what to install. */
+/* Writes script and data (both freed), runs gnuplot.  None: SPH_ERR_UNBUILT, what to install. */
 int sph_gnuplot_run(const sph_gnuplot *names, sph_text *script, sph_text *data, sph_error *error);
 
 #endif

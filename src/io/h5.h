@@ -1,7 +1,7 @@
 /* h5.h -- HDF5 under one lock, silent, with failures that stick.
  *
- * Debian's HDF5 is not thread-safe and prints its error stack; between sph_h5_enter and sph_h5_leave
- * a thread has the library for itself and its own error handler is put aside. */
+ * Debian's HDF5 is not thread-safe and prints its error stack; between sph_h5_enter and
+ * sph_h5_leave a thread has the library for itself, and its error handler is put aside. */
 #ifndef SPH_H5_H
 #define SPH_H5_H
 #include <hdf5.h>
@@ -21,14 +21,14 @@ hid_t sph_h5_group(sph_h5 *h5, hid_t where, const char *name);
 void sph_h5_real(sph_h5 *h5, hid_t where, const char *name, hsize_t count, const double *value);
 void sph_h5_integer(sph_h5 *h5, hid_t where, const char *name, hsize_t count, const int *value);
 void sph_h5_string(sph_h5 *h5, hid_t where, const char *name, const char *value);
-/* Dataset [rows][columns], columns == 0: [rows]; stored as `stored`, chunked, shuffled, deflated. */
+/* Dataset [rows][columns], columns == 0: [rows]; chunked, shuffled, deflated. */
 void sph_h5_array(sph_h5 *h5, hid_t where, const char *name, hid_t stored, hid_t given,
                   hsize_t rows, hsize_t columns, const void *data);
 /* A text of any length as a scalar dataset. */
 void sph_h5_text(sph_h5 *h5, hid_t where, const char *name, const char *value);
 void sph_h5_link(sph_h5 *h5, hid_t from, const char *name, hid_t to, const char *as);
 
-/* A file in memory: nothing that HDF5 does can meet a full disk (after which 1.10 may not close). */
+/* A file in memory: HDF5 never meets a full disk (after which 1.10 may not close). */
 hid_t sph_h5_create(sph_h5 *h5, const char *name);
 /* Its bytes (sph_memory_free), then closes it; NULL: failed. */
 void *sph_h5_close(sph_h5 *h5, hid_t file, size_t *size);

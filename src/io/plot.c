@@ -167,21 +167,39 @@ static long add_block(const picture *p, int k, int part, sph_text *data)
   return written;
 }
 
+/* Distance of the tics: 1, 2 or 5 times a power of ten, at least `pixels` apart. */
+static double tics(double range, double length, double pixels)
+{
+  double least = range * pixels / length, power = pow(10, floor(log10(least)));
+  double mantissa = least / power;
+  return power * (mantissa <= 1 ? 1 : mantissa <= 2 ? 2 : mantissa <= 5 ? 5 : 10);
+}
+
 static const char palette[] =
     "set palette defined (0 '#440154', 1 '#482878', 2 '#3e4989', 3 '#31688e', 4 '#26828e', "
     "5 '#1f9e89', 6 '#35b779', 7 '#6ece58', 8 '#b5de2b', 9 '#fde725') # viridis\n";
+
+/* gnuplot draws a particle true to scale: squares where they are a few pixels, which is three times
+ * as fast and leaves no gaps, else discs. */
+static int squares(const picture *p)
+{
+  return p->panel[0] / (p->hi[0] - p->lo[0]) * p->frame[0].spacing < 5;
+}
 
 static void add_head(const picture *p, sph_text *script)
 {
   double size[2];
   sheet(p, size);
-  sph_text_add(script, "radius = %.6g # of a particle [m]\n", 0.54 * p->frame[0].spacing);
+  double span = size[1] - bottom - top;
+  sph_text_add(script, "radius = %.6g # of a particle [m]\n",
+               (squares(p) ? 0.6 : 0.53) * p->frame[0].spacing);
   sph_text_add(script, "unit = %g\n\n%s", p->unit, palette);
   sph_text_add(script, "set cbrange [%.6g:%.6g]\nset cblabel ", p->from / p->unit, p->to / p->unit);
   sph_text_gnuplot_string(script, p->label);
+  sph_text_add(script, " offset 1.2, 0\nset cbtics %.6g",
+               tics((p->to - p->from) / p->unit, span, 70));
   sph_text_add(script, "\nset colorbox vertical user origin screen %.4f, %.4f size %.4f, %.4f\n",
-               1 - (right - 22) / size[0], bottom / size[1], 16 / size[0],
-               1 - (bottom + top) / size[1]);
+               1 - (right - 22) / size[0], bottom / size[1], 16 / size[0], span / size[1]);
   sph_text_add(script, "set xrange [%.6g:%.6g]\n", p->lo[0], p->hi[0]);
   if (p->dim == 1) {
     double more = 0.05 * (p->to - p->from);
@@ -191,14 +209,6 @@ static void add_head(const picture *p, sph_text *script)
     sph_text_add(script, "set yrange [%.6g:%.6g]\n", p->lo[1], p->hi[1]);
   }
   sph_text_add(script, "set multiplot\n");
-}
-
-/* Distance of the tics: 1, 2 or 5 times a power of ten, at least `pixels` apart. */
-static double tics(double range, double length, double pixels)
-{
-  double least = range * pixels / length, power = pow(10, floor(log10(least)));
-  double mantissa = least / power;
-  return power * (mantissa <= 1 ? 1 : mantissa <= 2 ? 2 : mantissa <= 5 ? 5 : 10);
 }
 
 static void add_axes(const picture *p, int k, sph_text *script)
@@ -234,26 +244,29 @@ static void add_axes(const picture *p, int k, sph_text *script)
 
 static void add_panel(const picture *p, int k, int *index, sph_text *script, sph_text *data)
 {
-  const char *separator = "plot";
+  const char *separator = "plot", *shape = squares(p) ? "boxxyerror" : "circles";
+  const char *radii = squares(p) ? "(radius):(radius)" : "(radius)";
   add_axes(p, k, script);
   if (k == 1) sph_text_add(script, "unset colorbox\n");
   if (p->dim > 1 && add_block(p, k, SPH_WALLS, data) > 0) {
     sph_text_add(script,
-                 "plot data index %d using 1:2:(radius) with circles lc rgb '#b4b4b4' fs solid "
+                 "plot data index %d using 1:2:%s with %s lc rgb '#b4b4b4' fs solid "
                  "noborder notitle",
-                 (*index)++);
+                 (*index)++, radii, shape);
     separator = ", \\\n ";
   }
-  if (add_block(p, k, SPH_FLUIDS, data) > 0)
+  if (add_block(p, k, SPH_FLUIDS, data) == 0)
+    sph_text_add(script, separator[0] == 'p' ? "plot NaN notitle\n" : "\n");
+  else if (p->dim == 1)
     sph_text_add(script,
-                 p->dim == 1 ? "%s data index %d using 1:($3/unit) with points pt 7 ps 0.5 lc rgb "
-                               "'#26828e' notitle"
-                             : "%s data index %d using 1:2:(radius):($3/unit) with circles lc "
-                               "palette fs solid noborder notitle",
+                 "%s data index %d using 1:($3/unit) with points pt 7 ps 0.5 lc rgb '#26828e' "
+                 "notitle\n",
                  separator, (*index)++);
-  else if (separator[0] == 'p')
-    sph_text_add(script, "plot NaN notitle");
-  sph_text_add(script, "\n");
+  else
+    sph_text_add(script,
+                 "%s data index %d using 1:2:%s:($3/unit) with %s lc palette fs solid noborder "
+                 "notitle\n",
+                 separator, (*index)++, radii, shape);
 }
 
 static int choose(picture *p, sph_error *error)
@@ -293,7 +306,7 @@ static int draw(picture *p, const char *png, sph_error *error)
   return sph_gnuplot_run(&names, &script, &data, error);
 }
 
-/* Draws the snapshots of these numbers (of `directory`), or the one file `path` where it is given. */
+/* Draws the snapshots of these numbers (of `directory`), or the one file `path` if given. */
 static int draw_files(const char *path, const char *directory, const long *number, int n,
                       const char *field, const char *png, sph_error *error)
 {
@@ -325,7 +338,7 @@ int sph_plot_frames(const char *directory, const char *field, int n, const char 
   if (count == 0) status = sph_error_set(error, SPH_ERR_FILE, "%s holds no snapshots", directory);
   if (n > count) n = count;
   for (int k = 0; k < n; k++)
-    chosen[k] = number[n == 1 ? count - 1 : (long)k * (count - 1) / (n - 1)];
+    chosen[k] = number[n == 1 ? count - 1 : (2 * k * (count - 1) + n - 1) / (2 * (n - 1))];
   if (status > 0) status = draw_files(NULL, directory, chosen, n, field, png, error);
   sph_memory_free(number);
   return status;

@@ -49,8 +49,9 @@ static void add_range(sph_text *script, const char *axis, double lo, double hi)
 static void add_head(const sph_plot_def *def, const char *x_title, const char *y_title,
                      sph_text *script)
 {
-  sph_text_add(script, "set grid lc rgb '#e4e4e4' lt 1\nset border 3\n"
-                       "set key outside bottom center horizontal Left reverse noenhanced\n");
+  sph_text_add(script,
+               "set grid lc rgb '#e4e4e4' lt 1\nset border 3\n"
+               "set key outside bottom center horizontal Left reverse noenhanced spacing 1.3\n");
   if (def->title) {
     sph_text_add(script, "set title ");
     sph_text_gnuplot_string(script, def->title);

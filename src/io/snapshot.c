@@ -1,8 +1,8 @@
 /* snapshot.c -- GADGET's groups and datasets, and /VTKHDF as links to them.
  *
- * VTK wants one array a field, GADGET one a particle type; a link cannot join two.  So /VTKHDF is the
- * fluids (/PartType0), which people look at, and /Walls is the same thing for /PartType1; another
- * file, a kilobyte, shows it to ParaView as its own object, which can be hidden or made transparent. */
+ * VTK wants one array a field, GADGET one a particle type; a link cannot join two.  So /VTKHDF is
+ * the fluids (/PartType0), which people look at, and /Walls is the same thing for /PartType1;
+ * another file, a kilobyte, shows it to ParaView as its own object, which can be hidden. */
 #include "snapshot.h"
 
 #include <math.h>
@@ -57,7 +57,7 @@ static void count(writer *w)
     for (int k = 0; (group = next_group(w, part, &k)); k++) w->n[part] += sph_group_count(group);
 }
 
-/* A barotropic fluid has no u to integrate; what its energy balance counts is the elastic energy. */
+/* A barotropic fluid has no u to integrate; its energy balance counts the elastic energy. */
 static void elastic(const sph_group *group, double *to, long n)
 {
   const sph_eos *eos = sph_group_eos(group);

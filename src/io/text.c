@@ -24,15 +24,19 @@ static int reserve(sph_text *text, size_t more)
 
 void sph_text_add(sph_text *text, const char *format, ...)
 {
-  va_list arguments;
-  va_start(arguments, format);
-  int length = vsnprintf(NULL, 0, format, arguments);
-  va_end(arguments);
-  if (length < 0 || !reserve(text, (size_t)length)) return;
-  va_start(arguments, format);
-  vsnprintf(text->data + text->length, (size_t)length + 1, format, arguments);
-  va_end(arguments);
-  text->length += (size_t)length;
+  for (int tries = 0; tries < 2; tries++) { /* the second after it has grown */
+    size_t room = text->capacity - text->length;
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(room ? text->data + text->length : NULL, room, format, arguments);
+    va_end(arguments);
+    if (length >= 0 && (size_t)length < room) {
+      text->length += (size_t)length;
+      return;
+    }
+    if (room) text->data[text->length] = '\0';
+    if (length < 0 || !reserve(text, (size_t)length)) return;
+  }
 }
 
 void sph_text_free(sph_text *text)

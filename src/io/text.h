@@ -14,7 +14,8 @@ typedef struct sph_text {
 void sph_text_add(sph_text *text, const char *format, ...) SPH_PRINTF(2, 3);
 void sph_text_free(sph_text *text);
 
-/* JSON: a string in quotes, escaped (NULL: null); a number with up to 17 digits (not finite: null). */
+/* JSON: a string in quotes, escaped (NULL: null); a number with 15 digits, 17 where needed (not
+ * finite: null). */
 void sph_text_json_string(sph_text *text, const char *value);
 void sph_text_json_number(sph_text *text, double value);
 /* gnuplot: a string in single quotes, control characters left out. */
