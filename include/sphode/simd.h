@@ -71,6 +71,22 @@ BODY vec v_sqrt(vec a)
   return r;
 }
 #endif
+
+/* Bit l is set where lane l of the mask is. */
+#if SPH_LANES == 8 && defined(__AVX512DQ__)
+BODY unsigned v_bits(vec_mask m) { return _mm512_movepi64_mask((__m512i)m); }
+#elif SPH_LANES == 4 && defined(__AVX__)
+BODY unsigned v_bits(vec_mask m) { return (unsigned)_mm256_movemask_pd((__m256d)m); }
+#elif SPH_LANES == 2 && defined(__SSE2__)
+BODY unsigned v_bits(vec_mask m) { return (unsigned)_mm_movemask_pd((__m128d)m); }
+#else
+BODY unsigned v_bits(vec_mask m)
+{
+  unsigned bits = 0;
+  for (int l = 0; l < SPH_LANES; l++) bits |= (unsigned)(m[l] != 0) << l;
+  return bits;
+}
+#endif
 BODY vec v_max0(vec a) { return v_max(a, (vec){0}); }
 BODY vec v_min0(vec a) { return v_min(a, (vec){0}); }
 BODY vec v_abs(vec a) { return v_max(a, -a); }

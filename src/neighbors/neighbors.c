@@ -1,0 +1,193 @@
+#include "sphode/neighbors.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "memory.h"
+#include "neighbors_data.h"
+
+static int check(const sph_neighbors_def *def, sph_error *error)
+{
+  if (def->dim < 1 || def->dim > 3)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "dim = %d; right is 1, 2 or 3", def->dim);
+  if (!(def->reach > 0 && def->reach < INFINITY))
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "reach = %g m; right is a finite number > 0",
+                         def->reach);
+  if (!(def->dx >= 0 && def->dx < INFINITY))
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "dx = %g m; right is a finite number >= 0",
+                         def->dx);
+  if (def->lanes != 0 && def->lanes != 1 && def->lanes != 2 && def->lanes != 4 && def->lanes != 8)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "lanes = %d; right is 1, 2, 4 or 8", def->lanes);
+  if (def->threads < 0)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "threads = %d; right is >= 0", def->threads);
+  if (def->method && strcmp(def->method, "blocks") && strcmp(def->method, "brute-force"))
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "neighbors \"%s\"; known: blocks, brute-force",
+                         def->method);
+  for (int d = 0; d < def->dim; d++) {
+    if (!def->periodic[d]) continue;
+    if (!(def->length[d] >= 2 * def->reach && def->length[d] < INFINITY) ||
+        !isfinite(def->origin[d]))
+      return sph_error_set(
+          error, SPH_ERR_ARGUMENT,
+          "periodic direction %d: length %g m from %g m; right is at least 2 reach = %g m", d,
+          def->length[d], def->origin[d], 2 * def->reach);
+  }
+  return SPH_OK;
+}
+
+/* Image 0 is no shift; then -1 and +1 box in every periodic direction. */
+static void make_images(sph_neighbors *nb)
+{
+  nb->images = 1;
+  for (int d = 0; d < nb->def.dim; d++) {
+    if (!nb->def.periodic[d]) continue;
+    int before = nb->images;
+    for (int sign = -1; sign <= 1; sign += 2)
+      for (int k = 0; k < before; k++) {
+        memcpy(nb->shift[nb->images], nb->shift[k], sizeof nb->shift[k]);
+        nb->shift[nb->images++][d] = sign * nb->def.length[d];
+      }
+  }
+}
+
+sph_neighbors *sph_neighbors_create(const sph_neighbors_def *def, sph_error *error)
+{
+  if (!def) {
+    sph_error_set(error, SPH_ERR_ARGUMENT, "sph_neighbors_create: no definition (NULL)");
+    return NULL;
+  }
+  if (check(def, error)) return NULL;
+  sph_neighbors *nb = SPH_NEW(sph_neighbors, 1, "the neighbour search", error);
+  if (!nb) return NULL;
+  nb->def = *def;
+  nb->def.method = NULL;
+  nb->brute_force = def->method && !strcmp(def->method, "brute-force");
+  if (nb->def.dx == 0) nb->def.dx = def->reach / 3;
+  if (nb->def.lanes == 0) nb->def.lanes = 1;
+  if (nb->def.threads == 0) nb->def.threads = 1;
+  make_images(nb);
+  nb->scratch = SPH_NEW(sph_runs, nb->def.threads, "scratch of the neighbour search", error);
+  if (nb->scratch) return nb;
+  sph_neighbors_free(nb);
+  return NULL;
+}
+
+static void free_list(sph_pair_list *list)
+{
+  if (!list) return;
+  sph_memory_free(list->first);
+  sph_memory_free(list->runs.run);
+  sph_memory_free(list);
+}
+
+void sph_neighbors_free(sph_neighbors *nb)
+{
+  if (!nb) return;
+  for (int s = 0; s < SPH_SETS_MAX; s++) {
+    sph_set *set = &nb->set[s];
+    sph_memory_free(set->order);
+    sph_memory_free(set->cell);
+    sph_memory_free(set->start);
+    for (int d = 0; d < 3; d++) {
+      sph_memory_free(set->wrap[d]);
+      sph_memory_free(set->x[d]);
+    }
+    for (int t = 0; t < SPH_SETS_MAX; t++) free_list(nb->list[s][t]);
+  }
+  for (int k = 0; nb->scratch && k < nb->def.threads; k++) sph_memory_free(nb->scratch[k].run);
+  sph_memory_free(nb->scratch);
+  sph_memory_free(nb);
+}
+
+static int good_set(const sph_neighbors *nb, int set)
+{
+  return nb && set >= 0 && set < SPH_SETS_MAX && nb->set[set].sorted;
+}
+
+const int *sph_neighbors_order(const sph_neighbors *nb, int set)
+{
+  return good_set(nb, set) ? nb->set[set].order : NULL;
+}
+
+const double *sph_neighbors_wrap(const sph_neighbors *nb, int set, int d)
+{
+  return good_set(nb, set) && d >= 0 && d < 3 ? nb->set[set].wrap[d] : NULL;
+}
+
+sph_list sph_neighbors_list(const sph_neighbors *nb, int target, int source)
+{
+  if (!good_set(nb, target) || !good_set(nb, source) || !nb->list[target][source])
+    return (sph_list){0};
+  const sph_pair_list *list = nb->list[target][source];
+  return (sph_list){list->blocks, list->first, list->runs.run};
+}
+
+const double (*sph_neighbors_shifts(const sph_neighbors *nb, int *count))[3]
+{
+  if (count) *count = nb ? nb->images : 0;
+  return nb ? nb->shift : NULL;
+}
+
+double sph_neighbors_bytes(const sph_neighbors *nb)
+{
+  double bytes = nb ? sizeof *nb : 0;
+  for (int s = 0; nb && s < SPH_SETS_MAX; s++) {
+    const sph_set *set = &nb->set[s];
+    int doubles = nb->def.dim;
+    for (int d = 0; d < 3; d++) doubles += set->wrap[d] != NULL;
+    bytes += (double)set->room * (2 * sizeof(int) + 8.0 * doubles) + 4.0 * (double)set->start_room;
+    for (int t = 0; t < SPH_SETS_MAX; t++)
+      if (nb->list[s][t])
+        bytes += 8.0 * (double)(nb->list[s][t]->first_room + nb->list[s][t]->runs.room);
+  }
+  for (int k = 0; nb && k < nb->def.threads; k++) bytes += 8.0 * (double)nb->scratch[k].room;
+  return bytes;
+}
+
+typedef struct found {
+  long index;
+  double distance;
+} found;
+
+static int by_index(const void *a, const void *b)
+{
+  long x = ((const found *)a)->index, y = ((const found *)b)->index;
+  return (x > y) - (x < y);
+}
+
+/* Sorted place of point i. */
+static long place_of(const sph_set *set, long i)
+{
+  for (long s = 0; s < set->n; s++)
+    if (set->order[s] == i) return s;
+  return -1;
+}
+
+long sph_neighbors_find(const sph_neighbors *nb, int target, int source, long i, long max,
+                        long *index, double *distance)
+{
+  if (!good_set(nb, target) || !good_set(nb, source)) return SPH_ERR_STATE;
+  const sph_set *t = &nb->set[target], *s = &nb->set[source];
+  long place = place_of(t, i), n = 0;
+  if (place < 0 || max < 0) return SPH_ERR_ARGUMENT;
+  found *all = sph_memory_take((size_t)s->n * (size_t)nb->images, sizeof *all);
+  if (!all) return SPH_ERR_MEMORY;
+  for (int m = 0; m < nb->images; m++)
+    for (long k = 0; k < s->n; k++) {
+      double r2 = 0;
+      for (int d = 0; d < nb->def.dim; d++) {
+        double r = t->x[d][place] - nb->shift[m][d] - s->x[d][k];
+        r2 += r * r;
+      }
+      int itself = target == source && m == 0 && k == place;
+      if (!itself && r2 < nb->def.reach * nb->def.reach) all[n++] = (found){s->order[k], sqrt(r2)};
+    }
+  qsort(all, (size_t)n, sizeof *all, by_index);
+  for (long k = 0; k < n && k < max; k++) {
+    if (index) index[k] = all[k].index;
+    if (distance) distance[k] = all[k].distance;
+  }
+  sph_memory_free(all);
+  return n;
+}
