@@ -146,7 +146,8 @@ static void choose_layout(picture *p)
 
 static void sheet(const picture *p, double size[2])
 {
-  size[0] = left + right + p->columns * p->panel[0] + (p->columns - 1) * gap_x;
+  double beside = p->dim == 1 ? 30 : right; /* 1D has no colour scale */
+  size[0] = left + beside + p->columns * p->panel[0] + (p->columns - 1) * gap_x;
   size[1] = top + bottom + p->rows * p->panel[1] + (p->rows - 1) * gap_y;
 }
 

@@ -71,6 +71,7 @@ static void read_part(reader *r, int part, const char *field, sph_snapshot *s)
   if (!s->x[part] || columns != 3)
     sph_error_set(r->error, SPH_ERR_FILE, "%s: %s has no coordinates", r->path, names[part]);
   s->value[part] = read_array(r, group, sph_snapshot_dataset(name), s->n[part], &columns);
+  if (s->dim == 1 && component < 0) component = 0; /* its sign says more than its magnitude */
   if (s->value[part]) reduce(s->value[part], s->n[part], columns, component);
   H5Gclose(group);
 }
