@@ -10,7 +10,7 @@
 
 #include "file.h"
 
-enum { NO_PROGRAM = 127 };
+enum { NO_PROGRAM = '\177' }; /* said by the child: there is no gnuplot */
 
 int sph_gnuplot_names(sph_gnuplot *names, const char *png, sph_error *error)
 {
@@ -55,10 +55,12 @@ void sph_gnuplot_begin(const sph_gnuplot *names, sph_text *script, int width, in
 
 static void child(const sph_gnuplot *names, int out)
 {
+  const char none = NO_PROGRAM;
   if (chdir(names->directory) != 0 || dup2(out, STDERR_FILENO) < 0) _exit(1);
   dup2(out, STDOUT_FILENO);
   execlp("gnuplot", "gnuplot", "-d", names->script, (char *)NULL); /* -d: not the user's settings */
-  _exit(errno == ENOENT ? NO_PROGRAM : 1);
+  if (errno == ENOENT && write(out, &none, 1) < 0) _exit(2);
+  _exit(1);
 }
 
 /* Runs it; said[size] gets the beginning of what it printed.  Exit status, or -1. */
@@ -94,7 +96,7 @@ static int draw(const sph_gnuplot *names, sph_error *error)
   if (status != SPH_OK) return status;
   unlink(path);
   int code = run(names, said, sizeof said);
-  if (code == NO_PROGRAM)
+  if (said[0] == NO_PROGRAM)
     return sph_error_set(error, SPH_ERR_UNBUILT,
                          "no gnuplot found: install gnuplot-nox (Debian, Ubuntu) or gnuplot "
                          "(Fedora, Homebrew), then run: gnuplot %s in %.300s",

@@ -320,7 +320,8 @@ static void killed_run_leaves_whole_files(void **state)
     empty_directory(NULL);
     pid_t child = fork();
     if (child == 0) _exit(write_frames(sph_output_hdf5(in("."), 1), sim, 10000, &error) ? 1 : 0);
-    nanosleep(&(struct timespec){0, 30000000 + 7300000 * try}, NULL);
+    while (!exists("snapshot_0000.hdf")) nanosleep(&(struct timespec){0, 1000000}, NULL);
+    nanosleep(&(struct timespec){0, 7300000 * try}, NULL);
     kill(child, SIGKILL);
     exit_status(child);
     for (int k = 0;; k++) {
