@@ -90,6 +90,7 @@ int sph_plot_series(const sph_plot_curve *curve, int n, const sph_plot_def *def,
     status = add_curve(&curve[k], &data, k ? x_title : x_first, k ? y_title : y_first, error);
     add_plot(&curve[k], k, k ? y_title : y_first, &curves);
   }
+  if (status == SPH_OK) status = sph_error_set(error, curves.error.status, "%s", curves.error.text);
   if (status == SPH_OK) {
     sph_gnuplot_begin(&names, &script, 1000, 620);
     add_head(def ? def : &plain, x_first, y_first, &script);

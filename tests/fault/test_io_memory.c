@@ -1,0 +1,173 @@
+/* Every allocation of the outputs fails once: the failure is told, nothing is left half written,
+ * nothing leaks (under ASan or valgrind). */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "memory.h"
+#include "sphode.h"
+
+static long fail_at, calls; /* call number fail_at fails; 0: none does */
+static char directory[200];
+static sph_sim *sim;
+
+static int fails(void) { return ++calls == fail_at; }
+
+/* All doors of memory.c: calls inside it are not seen by the linker. */
+void *__real_sph_memory_take(size_t count, size_t size);
+void *__wrap_sph_memory_take(size_t count, size_t size);
+void *__wrap_sph_memory_take(size_t count, size_t size)
+{
+  return fails() ? NULL : __real_sph_memory_take(count, size);
+}
+
+void *__real_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
+void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
+void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error)
+{
+  return __real_sph_memory_new(fails() ? SIZE_MAX : count, size, what, error);
+}
+
+int __real_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
+                           const char *what, sph_error *error);
+int __wrap_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
+                           const char *what, sph_error *error);
+int __wrap_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
+                           const char *what, sph_error *error)
+{
+  if (fails()) return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: %s", what);
+  return __real_sph_memory_grow(pointer, old_count, new_count, size, what, error);
+}
+
+char *__real_sph_memory_string(const char *text, sph_error *error);
+char *__wrap_sph_memory_string(const char *text, sph_error *error);
+char *__wrap_sph_memory_string(const char *text, sph_error *error)
+{
+  if (!fails()) return __real_sph_memory_string(text, error);
+  sph_error_set(error, SPH_ERR_MEMORY, "out of memory: a string");
+  return NULL;
+}
+
+static int run(sph_output output, sph_error *error)
+{
+  int status = output.open(output.ctx, sim, error);
+  for (int k = 0; status == SPH_OK && k < 2; k++) status = output.frame(output.ctx, sim, error);
+  if (output.close) output.close(output.ctx, sim, error);
+  output.free(output.ctx);
+  return status;
+}
+
+static int snapshots(sph_error *error)
+{
+  return run(sph_output_hdf5_def(&(sph_hdf5_def){directory, 1, "a: 1\n", "sphode run"}), error);
+}
+
+static int series(sph_error *error)
+{
+  static const sph_monitor monitors[] = {{.name = "f", .type = "front", .group = "water"},
+                                         {.name = "p", .type = "pressure"}};
+  return run(sph_output_series(directory, 1, monitors, 2), error);
+}
+
+static int summary(sph_error *error)
+{
+  static const sph_comparison comparison = {.name = "x", .value = 1, .bar = 2, .pass = 1};
+  return sph_summary_write(directory, sim, NULL, &comparison, 1, error);
+}
+
+/* There is no gnuplot on this PATH: all but its own work is done. */
+static int pictures(sph_error *error)
+{
+  char png[220];
+  snprintf(png, sizeof png, "%s/a.png", directory);
+  return sph_plot_frames(directory, "pressure", 2, png, error);
+}
+
+static int curves(sph_error *error)
+{
+  char png[220], csv[220];
+  snprintf(png, sizeof png, "%s/b.png", directory);
+  snprintf(csv, sizeof csv, "%s/series.csv", directory);
+  return sph_plot_series(&(sph_plot_curve){.csv = csv, .y = "total"}, 1, NULL, png, error);
+}
+
+static void each_allocation_fails(int (*what)(sph_error *error), int right)
+{
+  for (fail_at = 1; fail_at < 1000; fail_at++) {
+    sph_error error = {0};
+    calls = 0;
+    int status = what(&error);
+    if (calls < fail_at) {
+      assert_int_equal(status, right);
+      break;
+    }
+    assert_int_equal(status, SPH_ERR_MEMORY);
+    assert_int_equal(error.status, SPH_ERR_MEMORY);
+    assert_true(strlen(error.text) > 5);
+  }
+  assert_in_range(fail_at, 2, 999);
+  fail_at = 0;
+}
+
+static void all(void **state)
+{
+  (void)state;
+  each_allocation_fails(snapshots, SPH_OK);
+  each_allocation_fails(series, SPH_OK);
+  each_allocation_fails(summary, SPH_OK);
+  each_allocation_fails(pictures, SPH_ERR_UNBUILT);
+  each_allocation_fails(curves, SPH_ERR_UNBUILT);
+}
+
+static int set_up(void **state)
+{
+  (void)state;
+  const char *temporary = getenv("TMPDIR");
+  snprintf(directory, sizeof directory, "%s/sphode_io_XXXXXX", temporary ? temporary : "/tmp");
+  if (!mkdtemp(directory)) return -1;
+  setenv("PATH", directory, 1);
+  sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 0.1});
+  sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1, 1}, 1000);
+  sph_group_walls(sim, "tank", (double[]){0, 0}, (double[]){2, 1}, 1000);
+  sph_group_set_eos(water, sph_eos_linear(1000, 100, -INFINITY));
+  sph_sim_add_term(sim, sph_term_pressure());
+  return sph_sim_evaluate(sim);
+}
+
+static int tear_down(void **state)
+{
+  static const char *const left[] = {"snapshot_0000.hdf",
+                                     "snapshot_0001.hdf",
+                                     "walls_0000.hdf",
+                                     "walls_0001.hdf",
+                                     "snapshot.hdf.series",
+                                     "walls.hdf.series",
+                                     "series.csv",
+                                     "summary.json",
+                                     "summary.txt",
+                                     "a.gp",
+                                     "a.dat",
+                                     "b.gp",
+                                     "b.dat"};
+  char path[300];
+  (void)state;
+  sph_sim_free(sim);
+  for (size_t k = 0; k < sizeof left / sizeof *left; k++) {
+    snprintf(path, sizeof path, "%s/%s", directory, left[k]);
+    unlink(path);
+  }
+  return rmdir(directory); /* fails if anything else was left */
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(all)};
+  return cmocka_run_group_tests(tests, set_up, tear_down);
+}
