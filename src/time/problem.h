@@ -3,10 +3,9 @@
  * All callbacks return a status: 0, > 0 (SPH_RETRY: try a smaller step), < 0 failed (text in *error). */
 #ifndef SPH_PROBLEM_H
 #define SPH_PROBLEM_H
-#include <sundials/sundials_nvector.h>
-
 #include "sphode/base.h"
 #include "sphode/integrator.h"
+#include "sundials.h"
 
 typedef struct sph_step_limit {
   double dt

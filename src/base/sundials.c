@@ -1,0 +1,143 @@
+#include "sundials.h"
+
+#include <stddef.h>
+
+#if SPH_SUNDIALS_NUMBER >= 60700
+#include <sundials/sundials_adaptcontroller.h>
+#endif
+#if SPH_SUNDIALS_NUMBER >= 70000
+#include <sundials/sundials_logger.h>
+#endif
+
+#if SPH_SUNDIALS_NUMBER >= 70000
+
+static int create(SUNContext *context)
+{
+  SUNLogger logger = NULL;
+  if (SUNContext_Create(SUN_COMM_NULL, context)) return -1;
+  int failed = SUNContext_ClearErrHandlers(*context) || SUNContext_GetLogger(*context, &logger);
+  if (!failed && logger) /* warnings and errors of its logger go to stderr by default */
+    failed = SUNLogger_SetWarningFilename(logger, "/dev/null") ||
+             SUNLogger_SetErrorFilename(logger, "/dev/null");
+  if (failed) SUNContext_Free(context);
+  return failed;
+}
+
+static void hear(int line, const char *function, const char *file, const char *text,
+                 SUNErrCode code, void *data, SUNContext context)
+{
+  const sph_sundials_listener *listener = data;
+  (void)line, (void)function, (void)file, (void)code, (void)context;
+  listener->listen(text, listener->ctx);
+}
+
+int sph_sundials_listen(void *memory, SUNContext context, sph_sundials_listener *listener)
+{
+  (void)memory;
+  return SUNContext_PushErrHandler(context, hear, listener);
+}
+
+void sph_sundials_deaf(SUNContext context) { SUNContext_PopErrHandler(context); }
+
+#else
+
+static int create(SUNContext *context) { return SUNContext_Create(NULL, context); }
+
+static void hear(int code, const char *module, const char *function, char *text, void *data)
+{
+  const sph_sundials_listener *listener = data;
+  (void)code, (void)module, (void)function;
+  listener->listen(text, listener->ctx);
+}
+
+int sph_sundials_listen(void *memory, SUNContext context, sph_sundials_listener *listener)
+{
+  (void)context;
+  return ERKStepSetErrHandlerFn(memory, hear, listener);
+}
+
+void sph_sundials_deaf(SUNContext context) { (void)context; }
+
+#endif
+
+#if SPH_SUNDIALS_NUMBER >= 60700
+
+#if SPH_SUNDIALS_NUMBER < 70000
+#define SUNErrCode int
+#endif
+
+static SUNAdaptController_Type type(SUNAdaptController object)
+{
+  (void)object;
+  return SUN_ADAPTCONTROLLER_H;
+}
+
+static SUNErrCode estimate(SUNAdaptController object, sunrealtype h, int order, sunrealtype error,
+                           sunrealtype *h_new)
+{
+  const sph_sundials_controller *controller = object->content;
+  (void)order;
+  *h_new = controller->step(h, error, controller->ctx);
+  return 0;
+}
+
+static SUNErrCode nothing(SUNAdaptController object)
+{
+  (void)object;
+  return 0;
+}
+
+int sph_sundials_control(void *memory, SUNContext context, sph_sundials_controller *controller)
+{
+  SUNAdaptController object = SUNAdaptController_NewEmpty(context);
+  if (!object) return -1;
+  object->content = controller;
+  object->ops->gettype = type;
+  object->ops->estimatestep = estimate;
+  object->ops->reset = nothing;
+  controller->object = object;
+  return SPH_ERK(SetAdaptController)(memory, object);
+}
+
+void sph_sundials_control_free(sph_sundials_controller *controller)
+{
+  if (controller->object) SUNAdaptController_DestroyEmpty(controller->object);
+  controller->object = NULL;
+}
+
+#else
+
+static int adapt(N_Vector y, sunrealtype t, sunrealtype h1, sunrealtype h2, sunrealtype h3,
+                 sunrealtype e1, sunrealtype e2, sunrealtype e3, int q, int p, sunrealtype *h_new,
+                 void *data)
+{
+  const sph_sundials_controller *controller = data;
+  (void)y, (void)t, (void)h2, (void)h3, (void)e2, (void)e3, (void)q, (void)p;
+  *h_new = controller->step(h1, e1, controller->ctx);
+  return 0;
+}
+
+int sph_sundials_control(void *memory, SUNContext context, sph_sundials_controller *controller)
+{
+  (void)context;
+  return ERKStepSetAdaptivityFn(memory, adapt, controller);
+}
+
+void sph_sundials_control_free(sph_sundials_controller *controller) { controller->object = NULL; }
+
+#endif
+
+SUNContext sph_sundials_context(sph_error *error)
+{
+  SUNContext context = NULL;
+  if (create(&context)) {
+    sph_error_set(error, SPH_ERR_MEMORY, "SUNDIALS made no context: out of memory?");
+    return NULL;
+  }
+  return context;
+}
+
+void sph_sundials_context_free(SUNContext context)
+{
+  if (context) SUNContext_Free(&context);
+}
