@@ -323,7 +323,7 @@ static int draw_files(const char *path, const char *directory, const long *numbe
     if (status == SPH_OK) p->n++;
   }
   if (status == SPH_OK) status = draw(p, png, error);
-  for (int k = 0; k < p->n; k++) sph_snapshot_free(&p->frame[k]);
+  for (int k = 0; k < p->n; k++) sph_snapshot_read_free(&p->frame[k]);
   sph_memory_free(p);
   return status;
 }

@@ -29,7 +29,7 @@ typedef struct sph_snapshot {
  * magnitude). */
 int sph_snapshot_read(const char *path, const char *field, sph_snapshot *snapshot,
                       sph_error *error);
-void sph_snapshot_free(sph_snapshot *snapshot);
+void sph_snapshot_read_free(sph_snapshot *snapshot);
 
 /* The dataset that holds a field of the table ("velocity": "Velocities"). */
 const char *sph_snapshot_dataset(const char *field);

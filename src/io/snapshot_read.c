@@ -133,11 +133,11 @@ int sph_snapshot_read(const char *path, const char *field, sph_snapshot *snapsho
   if (r.file >= 0) H5Fclose(r.file);
   sph_h5_leave(&h5);
   if (own.status == SPH_OK) return SPH_OK;
-  sph_snapshot_free(snapshot);
+  sph_snapshot_read_free(snapshot);
   return sph_error_set(error, own.status, "%s", own.text);
 }
 
-void sph_snapshot_free(sph_snapshot *snapshot)
+void sph_snapshot_read_free(sph_snapshot *snapshot)
 {
   for (int part = 0; part < SPH_PARTS; part++) {
     sph_memory_free(snapshot->x[part]);

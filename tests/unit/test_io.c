@@ -229,10 +229,10 @@ static void reader_reads_components_and_magnitudes(void **state)
   assert_string_equal(s.unit, "m/s");
   assert_true(s.dim == 2 && s.spacing == dx && s.n[SPH_FLUIDS] == 200);
   for (int i = 0; i < 200; i++) assert_true(s.value[SPH_FLUIDS][i] == fabs(u[i]));
-  sph_snapshot_free(&s);
+  sph_snapshot_read_free(&s);
   assert_int_equal(sph_snapshot_read(in("snapshot_0000.hdf"), "velocity_y", &s, &error), SPH_OK);
   for (int i = 0; i < 200; i++) assert_true(s.value[SPH_FLUIDS][i] == 0);
-  sph_snapshot_free(&s);
+  sph_snapshot_read_free(&s);
   assert_int_equal(sph_snapshot_read(in("snapshot_0000.hdf"), "colour", &s, &error),
                    SPH_ERR_ARGUMENT);
   assert_non_null(strstr(error.text, "pressure")); /* tells the known ones */
@@ -283,7 +283,7 @@ static void full_disk_is_told_and_harmless(void **state)
   assert_true(exists("snapshot_0000.hdf") && !exists("snapshot_0001.hdf"));
   assert_int_equal(count_files(".tmp"), 0);
   assert_int_equal(sph_snapshot_read(in("snapshot_0000.hdf"), "density", &s, &error), SPH_OK);
-  sph_snapshot_free(&s);
+  sph_snapshot_read_free(&s);
   sph_sim_free(sim);
 }
 
@@ -333,7 +333,7 @@ static void killed_run_leaves_whole_files(void **state)
       snprintf(name, sizeof name, "snapshot_%04d.hdf", k);
       if (!exists(name)) break;
       assert_int_equal(sph_snapshot_read(in(name), "pressure", &s, &error), SPH_OK);
-      sph_snapshot_free(&s);
+      sph_snapshot_read_free(&s);
       whole++;
     }
   }
