@@ -68,6 +68,7 @@ static int run(const sph_gnuplot *names, char *said, size_t size)
 {
   int pipe_ends[2], status = -1;
   size_t used = 0;
+  said[0] = '\0';
   if (pipe(pipe_ends) != 0) return -1;
   for (int k = 0; k < 2; k++) fcntl(pipe_ends[k], F_SETFD, FD_CLOEXEC);
   pid_t pid = fork();

@@ -50,7 +50,7 @@ static const sph_group *next_group(const writer *w, int part, int *k)
   return group;
 }
 
-static void count(writer *w)
+static void count_particles(writer *w)
 {
   const sph_group *group;
   for (int part = 0; part < SPH_PARTS; part++)
@@ -298,7 +298,7 @@ void *sph_snapshot_image(const char *name, sph_sim *sim, const char *case_text, 
                          size_t *size, sph_error *error)
 {
   writer w = {.sim = sim, .dim = sph_sim_dim(sim)};
-  count(&w);
+  count_particles(&w);
   long larger = w.n[SPH_FLUIDS] > w.n[SPH_WALLS] ? w.n[SPH_FLUIDS] : w.n[SPH_WALLS];
   w.buffer = sph_memory_new(3 * (size_t)larger + 1, sizeof(double), "a snapshot", error);
   if (!w.buffer) return NULL;

@@ -22,21 +22,29 @@ static int reserve(sph_text *text, size_t more)
   return 1;
 }
 
+/* Adds if there is room; returns how many bytes are needed besides those there, 0: done. */
+static size_t print(sph_text *text, const char *format, va_list arguments)
+{
+  size_t room = text->capacity - text->length;
+  int length = vsnprintf(room ? text->data + text->length : NULL, room, format, arguments);
+  if (length >= 0 && (size_t)length < room) {
+    text->length += (size_t)length;
+    return 0;
+  }
+  if (room) text->data[text->length] = '\0';
+  return length < 0 ? 0 : (size_t)length;
+}
+
 void sph_text_add(sph_text *text, const char *format, ...)
 {
-  for (int tries = 0; tries < 2; tries++) { /* the second after it has grown */
-    size_t room = text->capacity - text->length;
-    va_list arguments;
-    va_start(arguments, format);
-    int length = vsnprintf(room ? text->data + text->length : NULL, room, format, arguments);
-    va_end(arguments);
-    if (length >= 0 && (size_t)length < room) {
-      text->length += (size_t)length;
-      return;
-    }
-    if (room) text->data[text->length] = '\0';
-    if (length < 0 || !reserve(text, (size_t)length)) return;
-  }
+  va_list arguments;
+  va_start(arguments, format);
+  size_t more = print(text, format, arguments);
+  va_end(arguments);
+  if (more == 0 || !reserve(text, more)) return;
+  va_start(arguments, format);
+  print(text, format, arguments);
+  va_end(arguments);
 }
 
 void sph_text_free(sph_text *text)
