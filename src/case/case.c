@@ -1,0 +1,155 @@
+#include "sphode/case.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "case_schema.h"
+#include "memory.h"
+#include "text.h"
+
+static void set_origin(sph_case_node *node, const char *origin)
+{
+  node->origin = origin;
+  node->line = node->column = node->key_line = 0;
+  for (sph_case_node *child = node->first; child; child = child->next) set_origin(child, origin);
+}
+
+/* The child that a word of a path names: a key, or in a list a number from 0. */
+static sph_case_node *descend(const sph_case_node *node, const char *word)
+{
+  if (node->kind != SPH_CASE_LIST) return sph_case_reader_find(node, word);
+  char *end;
+  long k = strtol(word, &end, 10);
+  sph_case_node *child = *word && !*end && k >= 0 ? node->first : NULL;
+  for (; child && k > 0; k--) child = child->next;
+  return child;
+}
+
+/* Takes the content of `given`, keeps the place among its siblings. */
+static void replace(sph_case_node *node, sph_case_node *given)
+{
+  sph_case_node old = *node;
+  *node = *given;
+  node->key = old.key;
+  node->next = old.next;
+  *given = old;
+  given->key = NULL;
+  given->next = NULL;
+}
+
+static int put(sph_case *c, const char *set, char *path, sph_case_node *given)
+{
+  sph_case_node *node = c->root;
+  for (char *word = path, *dot; word; word = dot) {
+    dot = strchr(word, '.');
+    if (dot) *dot++ = 0;
+    sph_case_node *child = descend(node, word);
+    if (!child && node->kind != SPH_CASE_MAP)
+      return sph_error_set(c->error, SPH_ERR_PARSE, "%s: --set %s: there is no '%s'", c->path, set,
+                           word);
+    if (!child) {
+      child = sph_case_reader_new(SPH_CASE_MAP, word, NULL, c->error);
+      if (!child) return SPH_ERR_MEMORY;
+      child->origin = set;
+      sph_case_reader_append(node, child);
+    }
+    node = child;
+  }
+  replace(node, given);
+  return SPH_OK;
+}
+
+static int apply(sph_case *c, const char *set)
+{
+  const char *value = strchr(set, '=');
+  char path[200];
+  if (!value || value == set || (size_t)(value - set) >= sizeof path)
+    return sph_error_set(c->error, SPH_ERR_PARSE, "--set %.100s: wanted key=value, as spacing=1cm",
+                         set);
+  snprintf(path, sizeof path, "%.*s", (int)(value - set), set);
+  sph_case_node *given = sph_case_reader_parse(set, value + 1, strlen(value + 1), c->error);
+  if (!given) return c->error->status;
+  set_origin(given, set);
+  int status = put(c, set, path, given);
+  sph_case_reader_free(given);
+  return status;
+}
+
+/* The text, with what was set as comments in front. */
+static char *whole_text(const char *text, size_t size, int n, const char *const *set,
+                        sph_error *error)
+{
+  sph_text whole = {0};
+  for (int k = 0; k < n; k++) sph_text_add(&whole, "# --set %s\n", set[k]);
+  sph_text_add(&whole, "%.*s", (int)size, text);
+  char *copy = NULL;
+  if (whole.error.status)
+    sph_error_set(error, whole.error.status, "%s", whole.error.text);
+  else
+    copy = sph_memory_string(whole.data ? whole.data : "", error);
+  sph_text_free(&whole);
+  return copy;
+}
+
+sph_case *sph_case_read_text(const char *path, const char *text, size_t size, int n,
+                             const char *const *set, sph_error *error)
+{
+  sph_error own = {0};
+  if (!error) error = &own;
+  if (error->status) return NULL;
+  sph_case *c = SPH_NEW(sph_case, 1, "a case", error);
+  if (!c) return NULL;
+  c->error = error;
+  c->path = sph_memory_string(path, error);
+  if (c->path) c->root = sph_case_reader_parse(c->path, text, size, error);
+  if (c->root) c->text = whole_text(text, size, n, set, error);
+  if (n > SPH_CASE_SETS)
+    sph_error_set(error, SPH_ERR_PARSE, "%d times --set; at most %d", n, SPH_CASE_SETS);
+  for (int k = 0; k < n && !error->status; k++) {
+    c->set[k] = sph_memory_string(set[k], error); /* messages point to it later, too */
+    if (c->set[k]) apply(c, c->set[k]);
+  }
+  if (!error->status) sph_case_check(c);
+  c->error = NULL;
+  if (!error->status) return c;
+  sph_case_free(c);
+  return NULL;
+}
+
+sph_case *sph_case_read(const char *path, int n, const char *const *set, sph_error *error)
+{
+  sph_error own = {0};
+  if (!error) error = &own;
+  size_t size;
+  char *text = sph_case_reader_load(path, &size, error);
+  sph_case *c = text ? sph_case_read_text(path, text, size, n, set, error) : NULL;
+  sph_memory_free(text);
+  return c;
+}
+
+void sph_case_free(sph_case *c)
+{
+  if (!c) return;
+  sph_case_reader_free(c->root);
+  for (int k = 0; k < SPH_CASE_SETS; k++) sph_memory_free(c->set[k]);
+  sph_memory_free(c->path);
+  sph_memory_free(c->text);
+  sph_memory_free(c);
+}
+
+static const sph_case_node *find(const sph_case *c, const char *mapping, const char *key)
+{
+  return sph_case_reader_find(sph_case_reader_find(c->root, mapping), key);
+}
+
+const char *sph_case_title(const sph_case *c)
+{
+  const sph_case_node *title = sph_case_reader_find(c->root, "title");
+  return title ? title->text : "";
+}
+
+const char *sph_case_text(const sph_case *c) { return c->text; }
+double sph_case_end(const sph_case *c) { return find(c, "run", "end")->number; }
+const char *sph_case_plot_field(const sph_case *c) { return find(c, "plot", "field")->text; }
+int sph_case_plot_frames(const sph_case *c) { return (int)find(c, "plot", "frames")->number; }

@@ -1,0 +1,315 @@
+/* From a checked case to a simulation, by the public interface only. */
+#include <math.h>
+#include <string.h>
+
+#include "case_schema.h"
+#include "memory.h"
+#include "sphode/case.h"
+#include "sphode/kernel.h"
+
+typedef struct builder {
+  const sph_case *c;
+  sph_sim *sim;
+  sph_error *error;
+} builder;
+
+#define get_text sph_case_reader_text
+#define get_number sph_case_reader_number
+#define get_vector sph_case_reader_vector
+#define child_of sph_case_reader_find
+
+/* The first failure of the simulation, with the place in the file that led to it. */
+static int told(const builder *b, const sph_case_node *node)
+{
+  if (b->error->status) return b->error->status;
+  if (sph_sim_status(b->sim) == SPH_OK) return SPH_OK;
+  return sph_case_schema_fail(b->c, b->error, node, 0, 0, "%s", sph_sim_error(b->sim));
+}
+
+static int fail(const builder *b, const sph_case_node *node, const char *what)
+{
+  return sph_case_schema_fail(b->c, b->error, node, 0, 0, "%s", what);
+}
+
+static int axis_of(const char *word) { return word[0] - 'x'; }
+
+/* ---- groups */
+
+static sph_eos eos_of(const sph_case_node *kind, double density)
+{
+  double c0 = get_number(kind, "sound_speed", 0), gamma = get_number(kind, "gamma", 0);
+  sph_eos eos;
+  if (!strcmp(kind->key, "tait"))
+    eos = sph_eos_tait(density, c0, gamma);
+  else if (!strcmp(kind->key, "linear"))
+    eos = sph_eos_linear(density, c0, get_number(kind, "p_min", -INFINITY));
+  else
+    return sph_eos_ideal_gas(gamma);
+  eos.p_background = get_number(kind, "background", 0);
+  return eos;
+}
+
+typedef struct steady {
+  double velocity[3];
+  int slide;
+} steady;
+
+static void steady_motion(void *ctx, double t, double displacement[3], double velocity[3],
+                          double acceleration[3])
+{
+  const steady *s = ctx;
+  for (int d = 0; d < 3; d++) {
+    displacement[d] = s->slide ? 0 : s->velocity[d] * t;
+    velocity[d] = s->velocity[d];
+    acceleration[d] = 0;
+  }
+}
+
+static int set_boundary(const builder *b, sph_group *group, const sph_case_node *map)
+{
+  const sph_case_node *motion = child_of(map, "motion");
+  sph_boundary boundary = sph_boundary_adami();
+  boundary.name = get_text(map, "model", "adami");
+  boundary.no_slip = get_number(map, "no_slip", 0) != 0;
+  boundary.tension = get_number(map, "tension", 0) != 0;
+  if (motion) {
+    steady *s = SPH_NEW(steady, 1, "the motion of a wall", b->error);
+    if (!s) return SPH_ERR_MEMORY;
+    get_vector(motion, "velocity", s->velocity);
+    s->slide = get_number(motion, "slide", 0) != 0;
+    boundary.motion = steady_motion;
+    boundary.ctx = s;
+    boundary.free = sph_memory_free;
+  }
+  sph_group_set_boundary(group, boundary);
+  return told(b, map);
+}
+
+static int add_shape(const builder *b, sph_group *group, const sph_case_node *shape, double density)
+{
+  double lower[3], upper[3], centre[3];
+  char open[32] = "";
+  density = get_number(shape, "density", density);
+  get_vector(shape, "lower", lower);
+  get_vector(shape, "upper", upper);
+  for (int d = 0; d < b->c->dim && strcmp(shape->key, "ball"); d++)
+    if (!(upper[d] > lower[d]))
+      return fail(b, shape, "upper must be above lower in each direction");
+  if (!strcmp(shape->key, "ball")) {
+    get_vector(shape, "centre", centre);
+    sph_group_add_ball(group, centre, get_number(shape, "radius", 0), density);
+  } else if (!strcmp(shape->key, "box")) {
+    sph_group_add_box(group, lower, upper, density);
+  } else {
+    const sph_case_node *list = child_of(shape, "open"), *side = list ? list->first : NULL;
+    for (; side && strlen(open) < 24; side = side->next) strcat(strcat(open, side->text), " ");
+    sph_group_add_layers(group, lower, upper, open, density);
+  }
+  return told(b, shape);
+}
+
+static int build_group(const builder *b, const sph_case_node *map)
+{
+  const sph_case_node *eos = child_of(map, "eos"), *boundary = child_of(map, "boundary");
+  const sph_case_node *initial = child_of(map, "initial"), *shape = child_of(map, "shapes")->first;
+  double density = get_number(map, "density", 0);
+  int wall = !strcmp(get_text(map, "kind", ""), "wall"), status;
+  if (wall && initial) return fail(b, initial, "a wall has no initial state; see boundary: motion");
+  if (!wall && boundary) return fail(b, boundary, "a fluid has no boundary; a wall has");
+  if (!wall && !eos) return fail(b, map, "missing key 'eos': a fluid needs an equation of state");
+  sph_group *group = sph_group_create(b->sim, map->key, get_text(map, "kind", ""));
+  if (eos && !told(b, map)) sph_group_set_eos(group, eos_of(eos->first, density));
+  status = told(b, eos ? eos : map);
+  for (; shape && !status; shape = shape->next) status = add_shape(b, group, shape->first, density);
+  if (!status && wall) status = set_boundary(b, group, boundary);
+  if (!status && sph_group_count(group) == 0) status = fail(b, map, "the group has no particles");
+  return status;
+}
+
+/* ---- the state at the start */
+
+/* The expression of a node at all particles of a group: [count], to be freed; NULL: told. */
+static double *field_of(const builder *b, const sph_group *group, const sph_case_node *node)
+{
+  const double *x[3] = {NULL, NULL, NULL};
+  sph_case_value value;
+  long n = sph_group_count(group);
+  double *field = SPH_NEW(double, n, "an initial field", b->error);
+  if (!field) return NULL;
+  for (int d = 0; d < b->c->dim; d++) x[d] = sph_group_read(group, "position", d);
+  if (!sph_case_value_field(node->text, b->c->names, b->c->n, b->c->dim, n, x, field, &value))
+    return field;
+  sph_case_schema_fail(b->c, b->error, node, 1, value.column, "%s", value.problem);
+  sph_memory_free(field);
+  return NULL;
+}
+
+static int write_field(const builder *b, sph_group *group, const char *name, int component,
+                       const sph_case_node *node)
+{
+  double *field = field_of(b, group, node), *to = sph_group_write(group, name, component);
+  if (field && to) memcpy(to, field, (size_t)sph_group_count(group) * sizeof *to);
+  if (field && !to)
+    fail(b, node, "the group has no such field; its equation of state has no energy");
+  sph_memory_free(field);
+  return told(b, node);
+}
+
+static int set_hydrostatic(const builder *b, sph_group *group, const sph_case_node *map)
+{
+  const char *axis = get_text(map, "axis", NULL);
+  int up = axis ? axis_of(axis) : b->c->dim - 1;
+  if (up >= b->c->dim) return fail(b, map, "there is no such axis in this dimension");
+  sph_group_set_hydrostatic(group, up, get_number(map, "surface", 0),
+                            get_number(map, "gravity", 0));
+  return told(b, map);
+}
+
+static int set_initial(const builder *b, const sph_case_node *map)
+{
+  const sph_case_node *initial = child_of(map, "initial"), *node;
+  sph_group *group = sph_sim_group(b->sim, map->key);
+  int status = SPH_OK, d = 0;
+  if (!initial) return SPH_OK;
+  if (!!child_of(initial, "pressure") + !!child_of(initial, "energy") +
+          !!child_of(initial, "hydrostatic") >
+      1)
+    return fail(b, initial, "only one of pressure, energy, hydrostatic can be given");
+  if ((node = child_of(initial, "velocity")))
+    for (node = node->first; node && !status; node = node->next)
+      status = write_field(b, group, "velocity", d++, node);
+  if (!status && (node = child_of(initial, "energy")))
+    status = write_field(b, group, "energy", 0, node);
+  if (!status && (node = child_of(initial, "hydrostatic")))
+    status = set_hydrostatic(b, group, node);
+  if (!status && (node = child_of(initial, "pressure"))) {
+    double *p = field_of(b, group, node);
+    if (p) sph_group_set_pressure(group, p);
+    sph_memory_free(p);
+    status = told(b, node);
+  }
+  return status;
+}
+
+/* ---- terms, integrator */
+
+static sph_term term_of(const sph_case_node *map)
+{
+  const char *name = map->key;
+  double alpha = get_number(map, "alpha", 0), g[3];
+  if (!strcmp(name, "continuity")) return sph_term_continuity_form(get_text(map, "form", NULL));
+  if (!strcmp(name, "pressure")) return sph_term_pressure_form(get_text(map, "form", NULL));
+  if (!strcmp(name, "viscosity-artificial"))
+    return sph_term_viscosity_artificial(alpha, get_number(map, "beta", 0));
+  if (!strcmp(name, "conductivity-artificial")) return sph_term_conductivity_artificial(alpha);
+  if (!strcmp(name, "delta"))
+    return sph_term_delta(get_text(map, "model", NULL), get_number(map, "delta", 0));
+  if (!strcmp(name, "harmonic")) return sph_term_harmonic(get_number(map, "omega", 0));
+  get_vector(map, "acceleration", g);
+  return sph_term_gravity(g);
+}
+
+static int set_integrator(const builder *b, const sph_case_node *map)
+{
+  int control = get_number(map, "error_control", 1) != 0;
+  sph_integrator_def def = {
+      .method = get_text(map, "method", NULL),
+      .cfl = get_number(map, "cfl", 0),
+      .tolerance = control ? get_number(map, "tolerance", 0) : -1,
+      .dt_max = get_number(map, "dt_max", 0),
+      .dt_min = get_number(map, "dt_min", 0),
+      .dt_fixed = get_number(map, "dt_fixed", 0),
+      .retries = (int)get_number(map, "retries", 0),
+  };
+  sph_sim_set_integrator(b->sim, &def);
+  return told(b, map);
+}
+
+static sph_sim_def sim_def(const sph_case *c, int threads)
+{
+  const sph_case_node *kernel = child_of(c->root, "kernel"),
+                      *periodic = child_of(c->root, "periodic");
+  sph_sim_def def = {
+      .dim = c->dim,
+      .dx = get_number(c->root, "spacing", 0),
+      .kernel = get_text(kernel, "name", NULL),
+      .h_over_dx = get_number(kernel, "h_over_dx", 0),
+      .threads = threads > 0 ? threads : (int)get_number(child_of(c->root, "run"), "threads", 1),
+      .speed = get_number(c->root, "speed", 0),
+  };
+  if (!periodic) return def;
+  double upper[3];
+  get_vector(periodic, "lower", def.origin);
+  get_vector(periodic, "upper", upper);
+  for (int d = 0; d < 3; d++) def.length[d] = upper[d] - def.origin[d];
+  for (const sph_case_node *axis = child_of(periodic, "axes")->first; axis; axis = axis->next)
+    def.periodic[axis_of(axis->text)] = 1;
+  return def;
+}
+
+static int build_parts(const builder *b)
+{
+  const sph_case_node *root = b->c->root, *node;
+  int status = told(b, child_of(root, "spacing"));
+  for (node = child_of(root, "groups")->first; node && !status; node = node->next)
+    status = build_group(b, node);
+  for (node = child_of(root, "terms")->first; node && !status; node = node->next) {
+    sph_sim_add_term(b->sim, term_of(node));
+    status = told(b, node);
+  }
+  if (!status) status = set_integrator(b, child_of(root, "integrator"));
+  for (node = child_of(root, "groups")->first; node && !status; node = node->next)
+    status = set_initial(b, node);
+  return status;
+}
+
+sph_sim *sph_case_build(const sph_case *c, int threads, sph_error *error)
+{
+  sph_error own = {0};
+  builder b = {.c = c, .error = error ? error : &own};
+  if (b.error->status) return NULL;
+  sph_sim_def def = sim_def(c, threads);
+  b.sim = sph_sim_create(&def);
+  if (!b.sim)
+    sph_error_set(b.error, SPH_ERR_MEMORY, "out of memory: the simulation of %s", c->path);
+  if (b.sim && build_parts(&b) == SPH_OK) return b.sim;
+  sph_sim_free(b.sim);
+  return NULL;
+}
+
+/* ---- outputs */
+
+static void add_series(const sph_case *c, sph_sim *sim, const char *directory, double interval)
+{
+  enum { MOST = 64 };
+  sph_monitor monitors[MOST];
+  int n = 0;
+  const sph_case_node *list = child_of(child_of(c->root, "output"), "monitors");
+  for (const sph_case_node *node = list ? list->first : NULL; node; node = node->next) {
+    if (n == MOST) {
+      sph_sim_fail(sim, SPH_ERR_PARSE, "%s: more than %d monitors", c->path, MOST);
+      return;
+    }
+    sph_monitor *m = &monitors[n++];
+    *m = (sph_monitor){.name = node->key,
+                       .type = get_text(node, "type", NULL),
+                       .group = get_text(node, "group", NULL),
+                       .axis = axis_of(get_text(node, "axis", "x"))};
+    get_vector(node, "at", m->x);
+    get_vector(node, "extent", m->extent);
+  }
+  sph_sim_add_output(sim, sph_output_series(directory, interval, monitors, n));
+}
+
+void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directory,
+                            const char *command)
+{
+  const sph_case_node *output = child_of(c->root, "output");
+  double end = sph_case_end(c);
+  sph_hdf5_def def = {.directory = directory,
+                      .interval = get_number(output, "snapshots", end / 20),
+                      .case_text = c->text,
+                      .command = command};
+  sph_sim_add_output(sim, sph_output_hdf5_def(&def));
+  add_series(c, sim, directory, get_number(output, "series", end / 500));
+}

@@ -1,0 +1,339 @@
+/* The check of a case against the schema: it reads top down, stops at the first error, leaves behind a tree in which
+ * every key with a default is present and every number is evaluated. */
+#include <ctype.h>
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "case_schema.h"
+
+static int check_value(sph_case *c, const sph_case_key *key, sph_case_node *node);
+static int check_map(sph_case *c, const char *mapping, sph_case_node *node);
+
+#define FAIL(node, column, ...) sph_case_schema_fail(c, c->error, node, 1, column, __VA_ARGS__)
+#define FAIL_KEY(node, ...) sph_case_schema_fail(c, c->error, node, 0, 0, __VA_ARGS__)
+
+/* ---- words */
+
+/* Levenshtein's distance of two words, both cut at 40 characters. */
+static int distance(const char *a, const char *b)
+{
+  enum { CUT = 40 };
+  int row[CUT + 1], n = (int)strnlen(a, CUT), m = (int)strnlen(b, CUT);
+  for (int j = 0; j <= m; j++) row[j] = j;
+  for (int i = 1; i <= n; i++) {
+    int diagonal = row[0];
+    row[0] = i;
+    for (int j = 1; j <= m; j++) {
+      int change =
+          diagonal + (tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]));
+      int less = row[j] < row[j - 1] ? row[j] + 1 : row[j - 1] + 1;
+      diagonal = row[j];
+      row[j] = change < less ? change : less;
+    }
+  }
+  return row[m];
+}
+
+typedef struct words {
+  const char *wanted;
+  char known[300];   /* "a, b, c" */
+  char nearest[100]; /* "did you mean 'b'? " or "" */
+  int best;
+} words;
+
+static void words_add(words *w, const char *word)
+{
+  size_t n = strlen(w->known);
+  snprintf(w->known + n, sizeof w->known - n, "%s%s", n ? ", " : "", word);
+  int d = distance(w->wanted, word);
+  if (3 * d > (int)strlen(word) + 2 || (w->nearest[0] && d >= w->best)) return;
+  w->best = d;
+  snprintf(w->nearest, sizeof w->nearest, "did you mean '%.40s'? ", word);
+}
+
+static int check_word(sph_case *c, const sph_case_key *key, sph_case_node *node)
+{
+  char word[80];
+  words w = {.wanted = node->text};
+  for (int k = 0; sph_case_schema_choice(key, k, word); k++) {
+    if (!strcmp(node->text, word)) return SPH_OK;
+    words_add(&w, word);
+  }
+  return FAIL(node, 0, "%s: found '%.40s'; %sknown: %s", key->name, node->text, w.nearest, w.known);
+}
+
+static int unknown_key(sph_case *c, const char *mapping, const sph_case_node *node)
+{
+  words w = {.wanted = node->key};
+  for (int k = 0; sph_case_schema_key(k); k++)
+    if (!strcmp(sph_case_schema_key(k)->mapping, mapping))
+      words_add(&w, sph_case_schema_key(k)->name);
+  return FAIL_KEY(node, "unknown key '%.40s' in %s; %sknown: %s", node->key, mapping, w.nearest,
+                  w.known);
+}
+
+/* ---- numbers */
+
+/* The unit of a checked value: a plain number is taken as SI, zero fits all. */
+static int check_unit(sph_case *c, const sph_case_key *key, const sph_case_node *node,
+                      const sph_case_value *value)
+{
+  sph_case_unit unit = {.factor = 1};
+  double off = 0, dimension = 0;
+  if (!strcmp(key->unit, "any") || value->any) return SPH_OK;
+  if (strcmp(key->unit, "1")) {
+    int inverse = key->unit[0] == '1'; /* "1/s" */
+    sph_case_unit_parse(key->unit + 2 * inverse, NULL, NULL, &unit);
+    for (int b = 0; b < SPH_CASE_BASES && inverse; b++) unit.power[b] = -unit.power[b];
+  }
+  for (int b = 0; b < SPH_CASE_BASES; b++) {
+    dimension += fabs(value->power[b]);
+    off += fabs(value->power[b] - unit.power[b]);
+  }
+  if (dimension == 0 || off < 1e-6) return SPH_OK;
+  char found[80];
+  sph_case_unit_write(value->power, found, sizeof found);
+  return FAIL(node, 0, "%s: found %s, wanted %s", key->name, found,
+              strcmp(key->unit, "1") ? key->unit : "a plain number");
+}
+
+static int check_range(sph_case *c, const sph_case_key *key, const sph_case_node *node)
+{
+  const char *unit = strcmp(key->unit, "1") && strcmp(key->unit, "any") ? key->unit : "";
+  const char *gap = unit[0] ? " " : "";
+  if (node->number >= key->low && node->number <= key->high) return SPH_OK;
+  if (key->low == DBL_MIN && isinf(key->high))
+    return FAIL(node, 0, "%s: found %g%s%s; must be > 0", key->name, node->number, gap, unit);
+  if (isinf(key->high))
+    return FAIL(node, 0, "%s: found %g%s%s; must be >= %g", key->name, node->number, gap, unit,
+                key->low);
+  return FAIL(node, 0, "%s: found %g%s%s; must be from %g to %g", key->name, node->number, gap,
+              unit, key->low, key->high);
+}
+
+static int not_scalar(sph_case *c, const sph_case_key *key, const sph_case_node *node,
+                      const char *wanted)
+{
+  static const char *const kind[] = {"a value", "a mapping", "a list"};
+  if (node->kind == SPH_CASE_SCALAR) return SPH_OK;
+  return FAIL(node, 0, "%s: found %s, wanted %s", key->name, kind[node->kind], wanted);
+}
+
+static int check_number(sph_case *c, const sph_case_key *key, sph_case_node *node)
+{
+  sph_case_value value;
+  int n = c->n;
+  if (not_scalar(c, key, node, "a number")) return SPH_ERR_PARSE;
+  if (key->type == SPH_CASE_LARGEST_T) {
+    static char largest[] = "largest";
+    c->names[n++] = (sph_case_name){.name = largest, .value = 2.7}; /* anything positive */
+  }
+  if (sph_case_value_evaluate(node->text, c->names, n, &value))
+    return FAIL(node, value.column, "%s: %s", key->name, value.problem);
+  node->number = value.value;
+  if (check_unit(c, key, node, &value)) return SPH_ERR_PARSE;
+  return key->type == SPH_CASE_LARGEST_T ? SPH_OK : check_range(c, key, node);
+}
+
+static int check_count(sph_case *c, const sph_case_key *key, sph_case_node *node)
+{
+  sph_case_key plain = *key;
+  plain.unit = "1";
+  int status = check_number(c, &plain, node);
+  if (!status && node->number != rint(node->number))
+    return FAIL(node, 0, "%s: found %g, wanted a whole number", key->name, node->number);
+  return status;
+}
+
+static int check_field(sph_case *c, const sph_case_key *key, sph_case_node *node)
+{
+  sph_case_value value;
+  if (not_scalar(c, key, node, "an expression")) return SPH_ERR_PARSE;
+  if (sph_case_value_field_unit(node->text, c->names, c->n, c->dim, &value))
+    return FAIL(node, value.column, "%s: %s", key->name, value.problem);
+  return check_unit(c, key, node, &value);
+}
+
+/* ---- parameters */
+
+static int check_name(sph_case *c, const sph_case_node *node)
+{
+  static const char *const taken[] = {"x", "y", "z", "t", "pi", "largest"};
+  const char *name = node->key;
+  size_t n = strlen(name);
+  int word = n > 0 && n <= 40 && (isalpha((unsigned char)name[0]) || name[0] == '_');
+  for (size_t k = 0; k < n; k++) word = word && (isalnum((unsigned char)name[k]) || name[k] == '_');
+  if (!word)
+    return FAIL_KEY(node, "'%.40s' cannot be a name in expressions; letters, digits and _ can",
+                    name);
+  for (size_t k = 0; k < sizeof taken / sizeof *taken; k++)
+    if (!strcmp(name, taken[k]))
+      return FAIL_KEY(node, "'%s' has a meaning of its own; choose another name", name);
+  if (strcmp(name, "g") && sph_case_unit_known(name, n))
+    return FAIL_KEY(node, "'%s' is a unit; choose another name", name);
+  return SPH_OK;
+}
+
+static int check_parameters(sph_case *c, const sph_case_key *key, sph_case_node *node)
+{
+  if (node->kind != SPH_CASE_MAP)
+    return FAIL(node, 0, "%s: wanted a mapping of names to numbers", key->name);
+  for (sph_case_node *child = node->first; child; child = child->next) {
+    sph_case_value value;
+    const sph_case_key one = {.name = child->key};
+    if (check_name(c, child) || not_scalar(c, &one, child, "a number")) return SPH_ERR_PARSE;
+    if (c->n >= SPH_CASE_NAMES - 1) return FAIL_KEY(child, "more than %d parameters", c->n);
+    if (sph_case_value_evaluate(child->text, c->names, c->n, &value))
+      return FAIL(child, value.column, "%s: %s", child->key, value.problem);
+    sph_case_name *name = &c->names[c->n++];
+    *name = (sph_case_name){.name = child->key, .value = value.value};
+    memcpy(name->power, value.power, sizeof name->power);
+  }
+  return SPH_OK;
+}
+
+/* ---- lists and mappings */
+
+/* count items of the type `one`; count < 0: any number. */
+static int check_list(sph_case *c, const sph_case_key *key, enum sph_case_type one, int count,
+                      sph_case_node *node)
+{
+  sph_case_key item = *key;
+  int n = 0;
+  item.type = one;
+  if (node->kind != SPH_CASE_LIST && count >= 0)
+    return FAIL(node, 0, "%s: wanted a list of %d, as [%s]", key->name, count,
+                count == 1   ? "1"
+                : count == 2 ? "1, 2"
+                             : "1, 2, 3");
+  if (node->kind != SPH_CASE_LIST) return FAIL(node, 0, "%s: wanted a list", key->name);
+  for (sph_case_node *child = node->first; child; child = child->next, n++)
+    if (check_value(c, &item, child)) return SPH_ERR_PARSE;
+  if (count >= 0 && n != count)
+    return FAIL(node, 0, "%s: found %d values, wanted %d", key->name, n, count);
+  return SPH_OK;
+}
+
+static int check_named(sph_case *c, const sph_case_key *key, sph_case_node *node)
+{
+  if (node->kind != SPH_CASE_MAP || !node->first)
+    return FAIL(node, 0, "%s: wanted a mapping of names to %ss", key->name, key->more);
+  for (sph_case_node *child = node->first; child; child = child->next)
+    if (check_map(c, key->more, child)) return SPH_ERR_PARSE;
+  return SPH_OK;
+}
+
+static int check_flag(sph_case *c, const sph_case_key *key, sph_case_node *node)
+{
+  node->number = !strcmp(node->text, "true");
+  if (node->number != 0 || !strcmp(node->text, "false")) return SPH_OK;
+  return FAIL(node, 0, "%s: found '%.40s', wanted true or false", key->name, node->text);
+}
+
+static int check_value(sph_case *c, const sph_case_key *key, sph_case_node *node)
+{
+  switch (key->type) {
+  case SPH_CASE_MAP_T: return check_map(c, key->more, node);
+  case SPH_CASE_LIST_T: return check_list(c, key, SPH_CASE_MAP_T, -1, node);
+  case SPH_CASE_NAMED_T: return check_named(c, key, node);
+  case SPH_CASE_PARAMETERS_T: return check_parameters(c, key, node);
+  case SPH_CASE_TEXT_T: return not_scalar(c, key, node, "a text");
+  case SPH_CASE_WORD_T: return not_scalar(c, key, node, "a word") || check_word(c, key, node);
+  case SPH_CASE_WORDS_T: return check_list(c, key, SPH_CASE_WORD_T, -1, node);
+  case SPH_CASE_FLAG_T:
+    return not_scalar(c, key, node, "true or false") || check_flag(c, key, node);
+  case SPH_CASE_COUNT_T: return check_count(c, key, node);
+  case SPH_CASE_NUMBER_T:
+  case SPH_CASE_LARGEST_T: return check_number(c, key, node);
+  case SPH_CASE_VECTOR_T: return check_list(c, key, SPH_CASE_NUMBER_T, c->dim, node);
+  case SPH_CASE_PAIR_T: return check_list(c, key, SPH_CASE_NUMBER_T, 2, node);
+  case SPH_CASE_FIELD_T: return check_field(c, key, node);
+  case SPH_CASE_FIELDS_T: return check_list(c, key, SPH_CASE_FIELD_T, c->dim, node);
+  }
+  return SPH_ERR_STATE;
+}
+
+static const sph_case_key *find_key(const char *mapping, const char *name)
+{
+  const sph_case_key *key;
+  for (int k = 0; (key = sph_case_schema_key(k)); k++)
+    if (!strcmp(key->mapping, mapping) && !strcmp(key->name, name)) return key;
+  return NULL;
+}
+
+static int add_default(sph_case *c, const sph_case_key *key, sph_case_node *map)
+{
+  int is_map = key->type == SPH_CASE_MAP_T;
+  sph_case_node *node = sph_case_reader_new(is_map ? SPH_CASE_MAP : SPH_CASE_SCALAR, key->name,
+                                            is_map ? NULL : key->standard, c->error);
+  if (!node) return SPH_ERR_MEMORY;
+  node->origin = "default";
+  sph_case_reader_append(map, node);
+  return check_value(c, key, node);
+}
+
+static int complete(sph_case *c, const char *mapping, sph_case_node *map)
+{
+  const sph_case_key *key;
+  for (int k = 0; (key = sph_case_schema_key(k)); k++) {
+    if (strcmp(key->mapping, mapping) || sph_case_reader_find(map, key->name)) continue;
+    if (!key->standard)
+      return FAIL_KEY(map, "missing key '%s' in %s: %s", key->name, map->key ? map->key : mapping,
+                      key->about);
+    if (key->standard[0] && add_default(c, key, map)) return c->error->status;
+  }
+  return SPH_OK;
+}
+
+static int check_one(sph_case *c, const char *mapping, const sph_case_node *map)
+{
+  char known[300] = "";
+  const sph_case_key *key;
+  if (map->first && !map->first->next) return SPH_OK;
+  for (int k = 0; (key = sph_case_schema_key(k)); k++) {
+    size_t n = strlen(known);
+    if (!strcmp(key->mapping, mapping))
+      snprintf(known + n, sizeof known - n, "%s%s", n ? ", " : "", key->name);
+  }
+  return FAIL_KEY(map, "%s: found %s; exactly one of these belongs here: %s", mapping,
+                  map->first ? "several keys" : "nothing", known);
+}
+
+static int is_one(const char *mapping)
+{
+  const sph_case_mapping *m;
+  for (int k = 0; (m = sph_case_schema_mapping(k)); k++)
+    if (!strcmp(m->name, mapping)) return m->one;
+  return 0;
+}
+
+static int check_map(sph_case *c, const char *mapping, sph_case_node *node)
+{
+  if (node->kind == SPH_CASE_SCALAR && !node->quoted && !node->text[0]) node->kind = SPH_CASE_MAP;
+  if (node->kind != SPH_CASE_MAP)
+    return FAIL(node, 0, "%s: found %s, wanted a mapping (key: value)",
+                node->key ? node->key : mapping,
+                node->kind == SPH_CASE_LIST ? "a list" : "a value");
+  for (sph_case_node *child = node->first; child; child = child->next) {
+    const sph_case_key *key = find_key(mapping, child->key);
+    if (!key) return unknown_key(c, mapping, child);
+    if (key->type == SPH_CASE_PARAMETERS_T) continue; /* done before */
+    if (check_value(c, key, child)) return c->error->status;
+  }
+  return is_one(mapping) ? check_one(c, mapping, node) : complete(c, mapping, node);
+}
+
+int sph_case_check(sph_case *c)
+{
+  sph_case_node *dimension = sph_case_reader_find(c->root, "dimension");
+  sph_case_node *parameters = sph_case_reader_find(c->root, "parameters");
+  if (dimension && check_value(c, find_key("case", "dimension"), dimension))
+    return c->error->status;
+  c->dim = dimension ? (int)dimension->number : 3;
+  if (parameters && check_value(c, find_key("case", "parameters"), parameters))
+    return c->error->status;
+  return check_map(c, "case", c->root);
+}

@@ -1,0 +1,22 @@
+/* case_unit.h -- units of measurement: a factor to SI and the exponents of kg, m, s. */
+#ifndef SPH_CASE_UNIT_H
+#define SPH_CASE_UNIT_H
+#include <stddef.h>
+
+enum { SPH_CASE_BASES = 3 }; /* kg, m, s */
+
+typedef struct sph_case_unit {
+  double factor; /* value in SI = value in this unit * factor */
+  double power[SPH_CASE_BASES];
+} sph_case_unit;
+
+/* Reads a unit as long as one stands there: "m/s^2", "kPa", "N m", "/s"; returns the characters taken, 0: none.
+ * Behind * or / stands a unit only if is_name(ctx, word, length) says that the word is no name of the user's. */
+size_t sph_case_unit_parse(const char *text, int (*is_name)(void *ctx, const char *word, size_t),
+                           void *ctx, sph_case_unit *unit);
+/* Whether a word is a unit, by itself. */
+int sph_case_unit_known(const char *word, size_t length);
+/* "m/s^2", "kg/m^3", "1" of the exponents. */
+void sph_case_unit_write(const double power[SPH_CASE_BASES], char *text, size_t size);
+
+#endif

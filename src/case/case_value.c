@@ -1,0 +1,309 @@
+#include "case_value.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <muParserDLL.h>
+#include <pthread.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Units are checked without a parser of our own: the expression is evaluated again with the kilogram, the metre and
+ * the second made 4 times larger and smaller.  A value that grows as a power of each has that dimension; one that
+ * does not adds what cannot be added. */
+
+/* muParser keeps the text of an error in a buffer of the process. */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+enum { TRANSLATED = 16 * SPH_CASE_VALUE_LENGTH, MOST_NAMES = 128 };
+
+typedef struct formula {
+  const char *text;
+  const sph_case_name *names;
+  int n;
+  char translated[TRANSLATED];
+  short origin[TRANSLATED]; /* where in text a character of translated comes from */
+  size_t length;
+  double values[MOST_NAMES];
+  sph_case_value *result;
+} formula;
+
+static int problem(formula *f, size_t column, const char *format, ...) SPH_PRINTF(3, 4);
+static int problem(formula *f, size_t column, const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(f->result->problem, sizeof f->result->problem, format, arguments);
+  va_end(arguments);
+  f->result->column = (int)column;
+  return SPH_ERR_PARSE;
+}
+
+static int put(formula *f, size_t origin, const char *text, size_t length)
+{
+  if (f->length + length + 1 > TRANSLATED) return problem(f, origin, "expression too long");
+  memcpy(f->translated + f->length, text, length);
+  for (size_t k = 0; k < length; k++) f->origin[f->length + k] = (short)origin;
+  f->length += length;
+  f->translated[f->length] = 0;
+  f->origin[f->length] = (short)(origin + (length > 0));
+  return SPH_OK;
+}
+
+static int is_name(void *ctx, const char *word, size_t length)
+{
+  const formula *f = ctx;
+  for (int k = 0; k < f->n; k++)
+    if (strlen(f->names[k].name) == length && !memcmp(f->names[k].name, word, length)) return 1;
+  return 0;
+}
+
+static double scaling(const double power[SPH_CASE_BASES], const double scale[SPH_CASE_BASES])
+{
+  double s = 1;
+  for (int b = 0; b < SPH_CASE_BASES; b++) s *= pow(scale[b], power[b]);
+  return s;
+}
+
+/* The number at text[k], with the unit behind it; the characters taken, 0: a problem. */
+static size_t number(formula *f, size_t k, const double scale[SPH_CASE_BASES])
+{
+  char piece[100], *end;
+  const char *start = f->text + k;
+  double v = strtod(start, &end);
+  size_t digits = (size_t)(end - start), gap = strspn(end, " \t");
+  sph_case_unit unit;
+  size_t taken = sph_case_unit_parse(end + gap, is_name, f, &unit);
+  if (taken) {
+    snprintf(piece, sizeof piece, "(%.17g*%.17g)", v, unit.factor * scaling(unit.power, scale));
+    return put(f, k, piece, strlen(piece)) ? 0 : digits + gap + taken;
+  }
+  if (isalpha((unsigned char)end[gap]) || end[gap] == '_') {
+    size_t n = 0;
+    while (isalnum((unsigned char)end[gap + n]) || end[gap + n] == '_') n++;
+    problem(f, k + digits + gap,
+            "'%.*s' is not a unit; known are kg, m, s, N, Pa, J, W with their multiples as mm, "
+            "kPa, and products as m/s^2; a product with a name needs *",
+            (int)(n < 40 ? n : 40), end + gap);
+    return 0;
+  }
+  snprintf(piece, sizeof piece, "(%.17g)", v);
+  return put(f, k, piece, strlen(piece)) ? 0 : digits;
+}
+
+/* What muParser would take and nobody means: assignments, lists, strings. */
+static int forbidden(formula *f)
+{
+  int depth = 0;
+  for (size_t k = 0; f->text[k]; k++) {
+    char c = f->text[k], before = k ? f->text[k - 1] : ' ';
+    depth += (c == '(') - (c == ')');
+    if (c == '=' && !strchr("<>!=", before) && f->text[k + 1] != '=')
+      return problem(f, k, "found '='; a value is an expression, == compares");
+    if (c == ',' && depth <= 0) return problem(f, k, "found ','; a value is one number");
+    if (c == '"') return problem(f, k, "found '\"'; a value is a number or an expression");
+    if ((unsigned char)c >= 128) return problem(f, k, "found a character that is not ASCII");
+  }
+  return SPH_OK;
+}
+
+static int translate(formula *f, const double scale[SPH_CASE_BASES])
+{
+  f->length = 0;
+  f->translated[0] = 0;
+  f->origin[0] = 0;
+  for (size_t k = 0; f->text[k];) {
+    unsigned char c = (unsigned char)f->text[k], next = (unsigned char)f->text[k + 1];
+    size_t taken = 0;
+    if (isdigit(c) || (c == '.' && isdigit(next))) {
+      taken = number(f, k, scale);
+      if (!taken) return SPH_ERR_PARSE;
+    } else if (isalpha(c) || c == '_') {
+      while (isalnum((unsigned char)f->text[k + taken]) || f->text[k + taken] == '_') taken++;
+      if (put(f, k, f->text + k, taken)) return SPH_ERR_PARSE;
+    } else {
+      taken = 1;
+      if (put(f, k, f->text + k, 1)) return SPH_ERR_PARSE;
+    }
+    k += taken;
+  }
+  return SPH_OK;
+}
+
+static int muparser_problem(formula *f, muParserHandle_t parser)
+{
+  int at = mupGetErrorPos(parser);
+  if (at < 0 || (size_t)at > f->length) at = 0;
+  char message[200], token[60]; /* muParser has one buffer for both */
+  snprintf(message, sizeof message, "%s", mupGetErrorMsg(parser));
+  snprintf(token, sizeof token, "%s", mupGetErrorToken(parser));
+  if (isalpha((unsigned char)token[0]) && !is_name(f, token, strlen(token)))
+    return problem(f, (size_t)f->origin[at], "'%s' is no parameter and no function", token);
+  char *tail = strstr(message, " at position"); /* of the translated text: would mislead */
+  if (tail) *tail = 0;
+  return problem(f, (size_t)f->origin[at], "not an expression: %s", message);
+}
+
+static muParserHandle_t open_parser(formula *f, const double scale[SPH_CASE_BASES])
+{
+  muParserHandle_t parser = mupCreate(0);
+  if (!parser) {
+    problem(f, 0, "out of memory");
+    return NULL;
+  }
+  mupDefineConst(parser, "pi", M_PI);
+  for (int k = 0; k < f->n; k++) {
+    f->values[k] = f->names[k].value * scaling(f->names[k].power, scale);
+    mupDefineVar(parser, f->names[k].name, &f->values[k]);
+  }
+  mupSetExpr(parser, f->translated);
+  return parser;
+}
+
+/* The value with units scaled; the lock is held. */
+static int evaluate(formula *f, const double scale[SPH_CASE_BASES], double *value)
+{
+  if (translate(f, scale)) return SPH_ERR_PARSE;
+  muParserHandle_t parser = open_parser(f, scale);
+  if (!parser) return SPH_ERR_PARSE;
+  *value = mupEval(parser);
+  int status = mupError(parser) ? muparser_problem(f, parser) : SPH_OK;
+  mupRelease(parser);
+  return status;
+}
+
+/* The exponent of base b, from two ratios that must agree. */
+static int exponent(formula *f, int b, double *power)
+{
+  double scale[SPH_CASE_BASES] = {1, 1, 1}, more, less, value = f->result->value;
+  scale[b] = 4;
+  if (evaluate(f, scale, &more)) return SPH_ERR_PARSE;
+  scale[b] = 0.25;
+  if (evaluate(f, scale, &less)) return SPH_ERR_PARSE;
+  double up = log(more / value) / log(4), down = log(value / less) / log(4);
+  if (!(fabs(up - down) < 1e-6))
+    return problem(f, 0,
+                   "'%.60s' adds or compares quantities of different units, or takes a "
+                   "function of one",
+                   f->text);
+  double nearest = round(12 * up) / 12;
+  *power = fabs(up - nearest) < 1e-6 ? nearest : up;
+  return SPH_OK;
+}
+
+static int prepare(formula *f, const char *text, const sph_case_name *names, int n,
+                   sph_case_value *result)
+{
+  memset(result, 0, sizeof *result);
+  f->text = text;
+  f->names = names;
+  f->n = n;
+  f->result = result;
+  if (n > MOST_NAMES) return problem(f, 0, "more than %d names", MOST_NAMES);
+  if (strlen(text) > SPH_CASE_VALUE_LENGTH)
+    return problem(f, 0, "expression longer than %d characters", SPH_CASE_VALUE_LENGTH);
+  if (text[strspn(text, " \t\n")] == 0)
+    return problem(f, 0, "found nothing; a number belongs here");
+  return forbidden(f);
+}
+
+static const double si[SPH_CASE_BASES] = {1, 1, 1};
+
+static int dimensions(formula *f)
+{
+  f->result->any = f->result->value == 0;
+  if (f->result->any) return SPH_OK;
+  for (int b = 0; b < SPH_CASE_BASES; b++)
+    if (exponent(f, b, &f->result->power[b])) return SPH_ERR_PARSE;
+  return SPH_OK;
+}
+
+int sph_case_value_evaluate(const char *text, const sph_case_name *names, int n,
+                            sph_case_value *result)
+{
+  formula f;
+  int status = prepare(&f, text, names, n, result);
+  if (status) return status;
+  pthread_mutex_lock(&lock);
+  status = evaluate(&f, si, &result->value);
+  if (!status && !isfinite(result->value))
+    status = problem(&f, 0, "'%.60s' is %g; a finite number belongs here", text, result->value);
+  if (!status) status = dimensions(&f);
+  pthread_mutex_unlock(&lock);
+  return status;
+}
+
+/* names[n] and the coordinates behind them; power 1: in metres. */
+static int with_coordinates(const sph_case_name *names, int n, int dim, double power,
+                            sph_case_name all[MOST_NAMES])
+{
+  static char *const word[] = {"x", "y", "z"};
+  static const double point[] = {0.3711, 0.4127, 0.4391}; /* nowhere special [m] */
+  int m = 0;
+  for (int k = 0; k < n && m < MOST_NAMES - 3; k++) all[m++] = names[k];
+  for (int d = 0; d < dim; d++)
+    all[m++] = (sph_case_name){.name = word[d], .value = point[d], .power = {0, power, 0}};
+  return m;
+}
+
+static int field_unit(const char *text, const sph_case_name *names, int n, int dim, double power,
+                      sph_case_value *result)
+{
+  sph_case_name all[MOST_NAMES];
+  int m = with_coordinates(names, n, dim, power, all);
+  formula f;
+  int status = prepare(&f, text, all, m, result);
+  if (status) return status;
+  pthread_mutex_lock(&lock);
+  status = evaluate(&f, si, &result->value);
+  if (!status && !isfinite(result->value)) result->value = 0; /* elsewhere it may be */
+  if (!status) status = dimensions(&f);
+  pthread_mutex_unlock(&lock);
+  return status;
+}
+
+int sph_case_value_field_unit(const char *text, const sph_case_name *names, int n, int dim,
+                              sph_case_value *result)
+{
+  int status = field_unit(text, names, n, dim, 1, result);
+  if (!status) return status;
+  /* "sin(3*x)": fine where everything is a plain number. */
+  sph_case_value plain;
+  if (field_unit(text, names, n, dim, 0, &plain)) return status;
+  for (int b = 0; b < SPH_CASE_BASES; b++)
+    if (plain.power[b] != 0) return status;
+  *result = plain;
+  return SPH_OK;
+}
+
+static int evaluate_points(formula *f, muParserHandle_t parser, int first, int dim, long count,
+                           const double *const x[], double *out)
+{
+  for (long i = 0; i < count; i++) {
+    for (int d = 0; d < dim; d++) f->values[first + d] = x[d][i];
+    out[i] = mupEval(parser);
+    if (mupError(parser)) return muparser_problem(f, parser);
+    if (isfinite(out[i])) continue;
+    return problem(f, 0, "'%.60s' is %g at x = %g m%s%g; it must be finite in the whole group",
+                   f->text, out[i], x[0][i], dim > 1 ? ", y = " : " in dimension ",
+                   dim > 1 ? x[1][i] : 1.0);
+  }
+  return SPH_OK;
+}
+
+int sph_case_value_field(const char *text, const sph_case_name *names, int n, int dim, long count,
+                         const double *const x[], double *out, sph_case_value *result)
+{
+  sph_case_name all[MOST_NAMES];
+  int m = with_coordinates(names, n, dim, 1, all);
+  formula f;
+  int status = prepare(&f, text, all, m, result);
+  if (status) return status;
+  pthread_mutex_lock(&lock);
+  muParserHandle_t parser = translate(&f, si) ? NULL : open_parser(&f, si);
+  status = parser ? evaluate_points(&f, parser, m - dim, dim, count, x, out) : SPH_ERR_PARSE;
+  if (parser) mupRelease(parser);
+  pthread_mutex_unlock(&lock);
+  return status;
+}
