@@ -7,11 +7,13 @@ AC_DEFUN([SPH_CHECK_SUNDIALS], [
 AC_ARG_WITH([sundials],
   [AS_HELP_STRING([--with-sundials=PREFIX], [where SUNDIALS is installed])],
   [], [with_sundials=yes])
-sph_have_sundials=no SUNDIALS_CPPFLAGS= SUNDIALS_LIBS= SUNDIALS_VERSION= SUNDIALS_DESCRIPTION= sph_mpi_libs=
+sph_have_sundials=no SUNDIALS_CPPFLAGS= SUNDIALS_LIBS= SUNDIALS_VERSION= SUNDIALS_DESCRIPTION= sph_mpi_libs= sph_rpath=
 AS_CASE([$with_sundials],
   [no], [AC_MSG_ERROR([sphode cannot be built without SUNDIALS])],
   [yes|''], [],
-  [SUNDIALS_CPPFLAGS="-I$with_sundials/include"
+  [AS_IF([test ! -r "$with_sundials/include/sundials/sundials_config.h"],
+     [AC_MSG_ERROR([--with-sundials=$with_sundials: no include/sundials/sundials_config.h in it])])
+   SUNDIALS_CPPFLAGS="-I$with_sundials/include"
    for sph_lib in lib lib64; do
      AS_IF([test -d "$with_sundials/$sph_lib"],
        [SUNDIALS_LIBS="$SUNDIALS_LIBS -L$with_sundials/$sph_lib -R$with_sundials/$sph_lib"
@@ -23,6 +25,7 @@ AC_CHECK_HEADER([sundials/sundials_config.h], [_SPH_SUNDIALS_INSPECT])
 AS_IF([test "x$SUNDIALS_VERSION" != x], [_SPH_SUNDIALS_LINK])
 CPPFLAGS=$sph_save_CPPFLAGS LIBS=$sph_save_LIBS
 AC_SUBST([SUNDIALS_CPPFLAGS])
+AC_SUBST([SUNDIALS_PC_LIBS], ["`AS_ECHO(["$SUNDIALS_LIBS"]) | sed 's/ -R/ -Wl,-rpath,/g'`"])
 AC_SUBST([SUNDIALS_LIBS])
 AC_SUBST([SUNDIALS_VERSION])
 ])
