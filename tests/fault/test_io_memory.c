@@ -135,10 +135,13 @@ static int set_up(void **state)
   setenv("PATH", directory, 1);
   sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 0.1});
   sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1, 1}, 1000);
-  sph_group_walls(sim, "tank", (double[]){0, 0}, (double[]){2, 1}, 1000);
+  sph_group *walls = sph_group_walls(sim, "tank", (double[]){0, 0}, (double[]){2, 1}, 1000);
+  sph_group_set_boundary(walls, sph_boundary_adami());
   sph_group_set_eos(water, sph_eos_linear(1000, 100, -INFINITY));
   sph_sim_add_term(sim, sph_term_pressure());
-  return sph_sim_evaluate(sim);
+  if (sph_sim_evaluate(sim) == SPH_OK) return 0;
+  print_error("%s\n", sph_sim_error(sim));
+  return -1;
 }
 
 static int tear_down(void **state)
@@ -156,7 +159,7 @@ static int tear_down(void **state)
                                      "a.dat",
                                      "b.gp",
                                      "b.dat"};
-  char path[300];
+  char path[400];
   (void)state;
   sph_sim_free(sim);
   for (size_t k = 0; k < sizeof left / sizeof *left; k++) {

@@ -32,7 +32,7 @@ static char directory[200]; /* of this process, removed at the end */
 /* directory/name; a few at once. */
 static const char *in(const char *name)
 {
-  static char path[4][300];
+  static char path[4][600];
   static int k;
   k = (k + 1) % 4;
   snprintf(path[k], sizeof path[k], "%s/%s", directory, name);
