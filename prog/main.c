@@ -1,6 +1,189 @@
 /* sphode -- the program. */
+#include <getopt.h>
+#include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-#include "sphode.h"
+#include "prog.h"
 
-int main(void) { return printf("sphode %s\n", sph_version()) < 0; }
+typedef struct command {
+  const char *name, *argument, *options; /* letters of those it takes */
+  int (*run)(const prog_options *o);
+  const char *about, *help;
+} command;
+
+static const command commands[] = {
+    {"run", "CASE.yml", "ostqfb", sph_prog_run,
+     "run a case; results, summary and pictures go to a directory",
+     "  -o, --output DIR       where to (default: the name of the case file, here)\n"
+     "  -s, --set KEY=VALUE    instead of what the file says: spacing=1cm, run.end=2s,\n"
+     "                         parameters.H=0.3m, groups.water.density=900; repeatable\n"
+     "  -t, --threads N        results do not depend on it\n"
+     "  -f, --force            write over a run that ended (one that was killed needs no force)\n"
+     "  -q, --quiet            no progress, no summary\n"
+     "      --strict           exit status 3 where a comparison misses its bar\n"
+     "\n"
+     "Exit status: 0 done, 1 failed, 2 bad usage, 3 see --strict, 130 or 143 stopped by Ctrl-C or "
+     "SIGTERM\n"
+     "(outputs and summary are whole then, too).\n"},
+    {"check", "CASE.yml", "st", sph_prog_check,
+     "validate a case and estimate its cost; nothing is written",
+     "  -s, --set KEY=VALUE    as with run\n"
+     "  -t, --threads N        as with run\n"},
+    {"info", "LIST", "jcQ", sph_prog_info,
+     "what there is: kernels, eos, terms, integrators, boundaries, case",
+     "  LIST is kernels, eos, terms, integrators, boundaries, or case (the manual of case files, "
+     "Markdown)\n"
+     "      --json             for programs\n"
+     "      --csv --q LIST     kernels only: kernel,dim,q,W,dWdr,laplacian at h = 1 for each q of "
+     "the list,\n"
+     "                         as 0,0.25,1.3\n"},
+    {"plot", "DIR", "Fn", sph_prog_plot, "draw a run again",
+     "      --field NAME       colour: velocity, pressure, density, energy, velocity_x, ...\n"
+     "      --frames N         snapshots on the sheet\n"},
+};
+enum { COMMANDS = sizeof commands / sizeof *commands };
+
+static const struct option options[] = {
+    {"output", required_argument, NULL, 'o'},  {"set", required_argument, NULL, 's'},
+    {"threads", required_argument, NULL, 't'}, {"quiet", no_argument, NULL, 'q'},
+    {"force", no_argument, NULL, 'f'},         {"strict", no_argument, NULL, 'b'},
+    {"json", no_argument, NULL, 'j'},          {"csv", no_argument, NULL, 'c'},
+    {"q", required_argument, NULL, 'Q'},       {"field", required_argument, NULL, 'F'},
+    {"frames", required_argument, NULL, 'n'},  {"help", no_argument, NULL, 'h'},
+    {"version", no_argument, NULL, 'V'},       {NULL, 0, NULL, 0},
+};
+
+int sph_prog_error(int status, const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  fputs("sphode: ", stderr);
+  vfprintf(stderr, format, arguments);
+  fputc('\n', stderr);
+  va_end(arguments);
+  return status;
+}
+
+static void print_help(const command *c)
+{
+  if (c) {
+    printf("Usage: sphode %s [OPTION]... %s\n\n%s.\n\n%s", c->name, c->argument, c->about, c->help);
+    return;
+  }
+  puts("Usage: sphode COMMAND [OPTION]... ARGUMENT\n\n"
+       "Smoothed particle hydrodynamics as a system of ordinary differential equations.\n");
+  for (int k = 0; k < COMMANDS; k++)
+    printf("  %-6s %-9s %s\n", commands[k].name, commands[k].argument, commands[k].about);
+  puts("\n  sphode COMMAND --help   its options\n"
+       "  sphode --version\n\n"
+       "Exit status: 0 done, 1 failed, 2 bad usage.");
+}
+
+static const command *find(const char *name)
+{
+  for (int k = 0; name && k < COMMANDS; k++)
+    if (!strcmp(commands[k].name, name)) return &commands[k];
+  return NULL;
+}
+
+static const char *option_name(int letter)
+{
+  for (int k = 0; options[k].name; k++)
+    if (options[k].val == letter) return options[k].name;
+  return "";
+}
+
+static int number(const char *name, const char *text, int *value)
+{
+  char *end;
+  long n = strtol(text, &end, 10);
+  *value = (int)n;
+  if (end != text && !*end && n >= 1 && n <= 4096) return PROG_OK;
+  return sph_prog_error(PROG_USAGE, "--%s %s: wanted a whole number from 1 to 4096", name, text);
+}
+
+static int take(prog_options *o, int letter, const char *value)
+{
+  switch (letter) {
+  case 'o': o->output = value; break;
+  case 't': return number("threads", value, &o->threads);
+  case 'n': return number("frames", value, &o->frames);
+  case 'q': o->quiet = 1; break;
+  case 'f': o->force = 1; break;
+  case 'b': o->strict = 1; break;
+  case 'j': o->json = 1; break;
+  case 'c': o->csv = 1; break;
+  case 'Q': o->q = value; break;
+  case 'F': o->field = value; break;
+  case 's':
+    if (o->sets == PROG_SETS)
+      return sph_prog_error(PROG_USAGE, "more than %d times --set", PROG_SETS);
+    o->set[o->sets++] = value;
+    break;
+  }
+  return PROG_OK;
+}
+
+/* argv[0] is the command.  -1: go on, else an exit status. */
+static int parse(const command *c, int argc, char **argv, prog_options *o)
+{
+  char name[] = "sphode", *first = argv[0];
+  int letter, status = PROG_OK;
+  argv[0] = name; /* getopt's messages begin with it */
+  while (!status && (letter = getopt_long(argc, argv, "o:s:t:qfhV", options, NULL)) != -1) {
+    if (letter == 'h') {
+      print_help(c);
+      return PROG_OK;
+    }
+    if (letter == '?')
+      status = PROG_USAGE;
+    else if (!strchr(c->options, letter))
+      status = sph_prog_error(PROG_USAGE, "%s takes no --%s", c->name, option_name(letter));
+    else
+      status = take(o, letter, optarg);
+  }
+  argv[0] = first;
+  if (!status && argc - optind != 1)
+    status = sph_prog_error(PROG_USAGE, "%s wants one %s, found %d", c->name, c->argument,
+                            argc - optind);
+  if (status) {
+    fprintf(stderr, "Try 'sphode %s --help'.\n", c->name);
+    return status;
+  }
+  o->what = argv[optind];
+  return -1;
+}
+
+static void keep_command(prog_options *o, int argc, char **argv)
+{
+  size_t n = (size_t)snprintf(o->command, sizeof o->command, "sphode");
+  for (int k = 1; k < argc && n < sizeof o->command; k++)
+    n += (size_t)snprintf(o->command + n, sizeof o->command - n, " %s", argv[k]);
+}
+
+int main(int argc, char **argv)
+{
+  prog_options o = {0};
+  const char *word = argc > 1 ? argv[1] : NULL;
+  if (word && (!strcmp(word, "--help") || !strcmp(word, "-h") || !strcmp(word, "help"))) {
+    print_help(find(argc > 2 ? argv[2] : NULL));
+    return PROG_OK;
+  }
+  if (word && (!strcmp(word, "--version") || !strcmp(word, "-V"))) {
+    printf("sphode %s\n", sph_version());
+    return PROG_OK;
+  }
+  const command *c = find(word);
+  if (!c) {
+    sph_prog_error(PROG_USAGE, word ? "'%s' is no command" : "no command", word ? word : "");
+    fprintf(stderr, "Try 'sphode --help'.\n");
+    return PROG_USAGE;
+  }
+  keep_command(&o, argc, argv);
+  int status = parse(c, argc - 1, argv + 1, &o);
+  if (status < 0) status = c->run(&o);
+  if (fflush(stdout)) return sph_prog_error(PROG_FAILED, "cannot write to standard output");
+  return status;
+}

@@ -1,0 +1,51 @@
+/* prog.h -- the commands of the program sphode. */
+#ifndef SPH_PROG_H
+#define SPH_PROG_H
+#include <sphode.h>
+
+enum { PROG_OK = 0, PROG_FAILED = 1, PROG_USAGE = 2, PROG_BAR = 3, PROG_SETS = 64 };
+
+typedef struct prog_options {
+  const char *what;   /* the case file, the directory, the list */
+  const char *output; /* NULL: by the name of the case */
+  const char *set[PROG_SETS];
+  int sets;
+  int threads; /* 0: what the case says */
+  int quiet, force, strict, json, csv;
+  const char *q;     /* "0,0.25,1.3" */
+  const char *field; /* NULL: that of the case */
+  int frames;        /* 0: that of the case */
+  char command[2000];
+} prog_options;
+
+/* Each returns the exit status of the program. */
+int sph_prog_run(const prog_options *o);
+int sph_prog_check(const prog_options *o);
+int sph_prog_info(const prog_options *o);
+int sph_prog_plot(const prog_options *o);
+
+/* "sphode: ..." on stderr; returns status. */
+int sph_prog_error(int status, const char *format, ...) SPH_PRINTF(2, 3);
+
+/* Makes a directory ready for a run and holds it (nobody else writes there); a file descriptor, or -1, told.
+ * A run that ended stays unless force; one that was killed is written over. */
+int sph_prog_directory_take(const char *directory, int force);
+
+typedef struct prog_progress {
+  double end;          /* [s] */
+  double start, shown; /* wall time [s] */
+  double tenth;        /* of the run, told last */
+  int quiet, live;     /* live: one line that is written over */
+  long bound_by[8];    /* at the last line */
+} prog_progress;
+
+/* Reports a run that is to go to time `end`; SIGINT and SIGTERM stop it. */
+void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int quiet);
+void sph_prog_progress_end(prog_progress *p);
+/* The signal that stopped the run; 0: none. */
+int sph_prog_progress_signal(void);
+
+/* Draws the pictures of a finished run with n comparisons, and prints their paths. */
+void sph_prog_plot_case(const sph_case *c, const char *directory, int n);
+
+#endif

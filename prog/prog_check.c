@@ -1,0 +1,111 @@
+/* sphode check: is a case right, and what would it cost? */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "prog.h"
+
+static double largest(const sph_group *group, const char *field, int dim)
+{
+  double most = 0;
+  for (long i = 0; i < sph_group_count(group); i++) {
+    double sum = 0;
+    for (int d = 0; d < dim; d++) {
+      double v = sph_group_read(group, field, d)[i];
+      sum += v * v;
+    }
+    most = fmax(most, sum);
+  }
+  return sqrt(most);
+}
+
+static void print_groups(const sph_sim *sim)
+{
+  const sph_group *group;
+  for (int k = 0; (group = sph_sim_group_get(sim, k)); k++)
+    printf("%-12s %ld %s particles%s%s\n", sph_group_name(group), sph_group_count(group),
+           sph_group_kind(group), sph_group_eos(group) ? ", " : "",
+           sph_group_eos(group) ? sph_group_eos(group)->name : "");
+  printf("%-12s dim %d, dx = %.4g m, h = %.4g m (%.3g dx), %s\n", "resolution", sph_sim_dim(sim),
+         sph_sim_dx(sim), sph_sim_h(sim), sph_sim_h(sim) / sph_sim_dx(sim), sph_sim_kernel(sim));
+}
+
+/* A liquid is weakly compressible only where it is slow and its pressure small. */
+static int warn_liquid(const sph_group *group, int dim)
+{
+  const sph_eos *eos = sph_group_eos(group);
+  const double *rho = sph_group_read(group, "density", 0);
+  double far = 0, speed = largest(group, "velocity", dim);
+  int warnings = 0;
+  if (!eos || eos->thermal || !(eos->rho0 > 0) || !rho) return 0;
+  for (long i = 0; i < sph_group_count(group); i++) far = fmax(far, fabs(rho[i] / eos->rho0 - 1));
+  if (speed > 0.1 * eos->c0 * (1 + 1e-9)) {
+    printf("warning      %s moves at %.3g m/s, more than a tenth of its sound speed %.3g m/s\n",
+           sph_group_name(group), speed, eos->c0);
+    warnings++;
+  }
+  if (far > 0.03) {
+    printf(
+        "warning      %s: density starts %.2g %% off the reference; a larger sound speed helps\n",
+        sph_group_name(group), 100 * far);
+    warnings++;
+  }
+  return warnings;
+}
+
+static int warnings(const sph_sim *sim)
+{
+  const sph_group *group;
+  int n = 0;
+  for (int k = 0; (group = sph_sim_group_get(sim, k)); k++)
+    if (!strcmp(sph_group_kind(group), "fluid")) n += warn_liquid(group, sph_sim_dim(sim));
+  double ratio = sph_sim_h(sim) / sph_sim_dx(sim);
+  if (ratio < 1 || ratio > 3) {
+    printf("warning      h = %.3g dx; usual is 1.2 to 2\n", ratio);
+    n++;
+  }
+  return n;
+}
+
+/* A few steps tell the step size and the speed of this machine; nothing is written. */
+static int estimate(sph_sim *sim, double end)
+{
+  enum { STEPS = 20 };
+  sph_sim_stats first = {0}, last = {0};
+  int status = SPH_OK;
+  for (int k = 0; k < STEPS && !status && sph_sim_time(sim) < end; k++) {
+    status = sph_sim_step(sim);
+    sph_sim_get_stats(sim, k ? &last : &first);
+  }
+  if (status) return status;
+  double steps = ceil(end / last.step.dt_largest);
+  double one = (last.seconds - first.seconds) / (double)(last.step.steps - first.step.steps);
+  if (!(steps > 0 && one > 0)) return SPH_OK;
+  printf("%-12s about %.3g steps of %.3g s to t = %.4g s (%s)\n", "steps", steps,
+         last.step.dt_largest, end, sph_sim_integrator(sim));
+  printf("%-12s about %.2g s on this machine with %d thread%s, %.3g MB\n", "time", steps * one,
+         sph_sim_threads(sim), sph_sim_threads(sim) == 1 ? "" : "s", 1e-6 * last.bytes);
+  return SPH_OK;
+}
+
+int sph_prog_check(const prog_options *o)
+{
+  sph_error error = {0};
+  sph_case *c = sph_case_read(o->what, o->sets, o->set, &error);
+  sph_sim *sim = c ? sph_case_build(c, o->threads, &error) : NULL;
+  int status = sim ? sph_sim_evaluate(sim) : error.status;
+  if (!status) {
+    printf("%s\n\n", sph_case_title(c));
+    print_groups(sim);
+    int n = warnings(sim);
+    status = estimate(sim, sph_case_end(c));
+    if (!status) printf("%-12s right, %d warning%s\n", "the case", n, n == 1 ? "" : "s");
+  }
+  if (error.status)
+    sph_prog_error(PROG_FAILED, "%s", error.text);
+  else if (status)
+    sph_prog_error(PROG_FAILED, "%s: %s", o->what, sph_sim_error(sim));
+  sph_sim_free(sim);
+  sph_case_free(c);
+  return status ? PROG_FAILED : PROG_OK;
+}

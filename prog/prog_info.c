@@ -1,0 +1,179 @@
+/* sphode info: the lists of what there is. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "prog.h"
+
+/* One row of a list: names and texts of its columns. */
+typedef struct row {
+  const char *name, *formula;
+  char detail[4][40];
+} row;
+
+typedef struct list {
+  const char *name;
+  const char *detail[4]; /* names of the columns between name and formula */
+  int (*get)(int k, row *r);
+} list;
+
+static int kernel_row(int k, row *r)
+{
+  const sph_kernel *kernel = sph_kernel_get(k);
+  if (!kernel) return 0;
+  r->name = sph_kernel_name(kernel);
+  r->formula = sph_kernel_formula(kernel, 2);
+  snprintf(r->detail[0], sizeof r->detail[0], "%s", sph_kernel_smoothness(kernel));
+  snprintf(r->detail[1], sizeof r->detail[1], "%g", sph_kernel_support(kernel));
+  snprintf(r->detail[2], sizeof r->detail[2], "%g", sph_kernel_h_over_dx(kernel));
+  return 1;
+}
+
+static int eos_row(int k, row *r)
+{
+  r->name = sph_eos_name(k);
+  if (r->name) r->formula = sph_eos_formula(r->name);
+  return r->name != NULL;
+}
+
+static int term_row(int k, row *r)
+{
+  r->name = sph_term_name(k);
+  if (r->name) r->formula = sph_term_formula(r->name);
+  return r->name != NULL;
+}
+
+static int boundary_row(int k, row *r)
+{
+  r->name = sph_boundary_name(k);
+  if (r->name) r->formula = sph_boundary_formula(r->name);
+  return r->name != NULL;
+}
+
+static int integrator_row(int k, row *r)
+{
+  static sph_integrator_info info; /* its name lives in the library's table */
+  if (!sph_integrator_info_get(k, &info)) return 0;
+  r->name = info.name;
+  snprintf(r->detail[0], sizeof r->detail[0], "%d", info.order);
+  snprintf(r->detail[1], sizeof r->detail[1], "%d", info.stages);
+  snprintf(r->detail[2], sizeof r->detail[2], "%s", info.error_control ? "yes" : "no");
+  snprintf(r->detail[3], sizeof r->detail[3], "%.3g", info.stability);
+  return 1;
+}
+
+static const list lists[] = {
+    {"kernels", {"smoothness", "support/h", "h/dx"}, kernel_row},
+    {"eos", {NULL}, eos_row},
+    {"terms", {NULL}, term_row},
+    {"integrators", {"order", "stages", "error-control", "stability"}, integrator_row},
+    {"boundaries", {NULL}, boundary_row},
+};
+
+static void json_string(const char *text)
+{
+  putchar('"');
+  for (const char *at = text; *at; at++) {
+    if (*at == '"' || *at == '\\') putchar('\\');
+    putchar(*at);
+  }
+  putchar('"');
+}
+
+static void print_json(const list *l)
+{
+  row r = {0};
+  for (int k = 0; l->get(k, &r); k++) {
+    fputs(k ? ",\n  {\"name\": " : "[\n  {\"name\": ", stdout);
+    json_string(r.name);
+    for (int d = 0; d < 4 && l->detail[d]; d++) {
+      fputs(", ", stdout);
+      json_string(l->detail[d]);
+      fputs(": ", stdout);
+      json_string(r.detail[d]);
+    }
+    if (r.formula) fputs(", \"formula\": ", stdout);
+    if (r.formula) json_string(r.formula);
+    putchar('}');
+  }
+  puts("\n]");
+}
+
+static int width(const list *l)
+{
+  row r = {0};
+  size_t most = 4;
+  for (int k = 0; l->get(k, &r); k++)
+    if (strlen(r.name) > most) most = strlen(r.name);
+  return (int)most;
+}
+
+static void print_list(const list *l)
+{
+  row r = {0};
+  int first = width(l);
+  if (l->detail[0]) printf("%-*s", first, "name");
+  for (int d = 0; d < 4 && l->detail[d]; d++) printf("  %s", l->detail[d]);
+  if (l->detail[0]) putchar('\n');
+  for (int k = 0; l->get(k, &r); k++) {
+    printf("%-*s", first, r.name);
+    for (int d = 0; d < 4 && l->detail[d]; d++)
+      printf("  %*s", (int)strlen(l->detail[d]), r.detail[d]);
+    printf("%s%s\n", r.formula ? "  " : "", r.formula ? r.formula : "");
+  }
+}
+
+static int print_kernel_values(const prog_options *o)
+{
+  if (!o->q) return sph_prog_error(PROG_USAGE, "--csv wants --q, as in --q 0,0.25,1.3");
+  for (const char *at = o->q; *at;) { /* all right before anything is printed */
+    char *end;
+    double q = strtod(at, &end);
+    if (end == at || !(q >= 0) || isinf(q) || (*end && (*end != ',' || !end[1])))
+      return sph_prog_error(PROG_USAGE, "--q %s: found '%s'; wanted numbers >= 0 with commas", o->q,
+                            at);
+    at = *end ? end + 1 : end;
+  }
+  puts("kernel,dim,q,W,dWdr,laplacian");
+  const sph_kernel *kernel;
+  for (int k = 0; (kernel = sph_kernel_get(k)); k++)
+    for (int dim = 1; dim <= 3; dim++)
+      for (const char *at = o->q; *at; at += *at == ',') {
+        char *end;
+        double q = strtod(at, &end);
+        printf("%s,%d,%.17g,%.17g,%.17g,%.17g\n", sph_kernel_name(kernel), dim, q,
+               sph_kernel_w(kernel, dim, q, 1), sph_kernel_dwdr(kernel, dim, q, 1),
+               sph_kernel_laplacian(kernel, dim, q, 1));
+        at = end;
+      }
+  return PROG_OK;
+}
+
+static int print_manual(void)
+{
+  int n = sph_case_manual(NULL, 0);
+  char *text = n > 0 ? malloc((size_t)n + 1) : NULL;
+  if (!text) return sph_prog_error(PROG_FAILED, "out of memory");
+  sph_case_manual(text, (size_t)n + 1);
+  fputs(text, stdout);
+  free(text);
+  return PROG_OK;
+}
+
+int sph_prog_info(const prog_options *o)
+{
+  if (!strcmp(o->what, "case")) return print_manual();
+  int kernels = !strcmp(o->what, "kernels");
+  if ((o->csv || o->q) && !kernels)
+    return sph_prog_error(PROG_USAGE, "--csv and --q belong to info kernels");
+  if (o->csv || o->q) return print_kernel_values(o);
+  for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) {
+    if (strcmp(lists[k].name, o->what)) continue;
+    (o->json ? print_json : print_list)(&lists[k]);
+    return PROG_OK;
+  }
+  return sph_prog_error(PROG_USAGE,
+                        "info %s: known are kernels, eos, terms, integrators, boundaries, case",
+                        o->what);
+}

@@ -1,0 +1,93 @@
+/* What a run tells while it goes, and how it is stopped. */
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "prog.h"
+
+static volatile sig_atomic_t stopped_by;
+
+static void on_signal(int number) { stopped_by = number; }
+
+static double now(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* What bound most of the steps since the last line. */
+static const char *bound(prog_progress *p, const sph_step_stats *s)
+{
+  int most = 0;
+  for (int k = 1; k < SPH_BOUND_COUNT; k++)
+    if (s->bound_by[k] - p->bound_by[k] > s->bound_by[most] - p->bound_by[most]) most = k;
+  memcpy(p->bound_by, s->bound_by, sizeof p->bound_by);
+  return sph_bound_name(most);
+}
+
+static long fluids(const sph_sim *sim)
+{
+  const sph_group *group;
+  long n = 0;
+  for (int k = 0; (group = sph_sim_group_get(sim, k)); k++)
+    if (!strcmp(sph_group_kind(group), "fluid")) n += sph_group_count(group);
+  return n;
+}
+
+static void tell(prog_progress *p, sph_sim *sim)
+{
+  sph_sim_stats s;
+  sph_sim_get_stats(sim, &s);
+  double t = sph_sim_time(sim), used = now() - p->start, left = 0;
+  if (t > 0) left = used * (p->end - t) / t;
+  fprintf(stderr,
+          "%st = %.4g of %.4g s (%3.0f %%)  step %ld of %.3g s, bound by %s  %ld particles  "
+          "%.3g million pairs/s  %.0f:%02.0f left%s",
+          p->live ? "\r\033[K" : "", t, p->end, 100 * t / p->end, s.step.steps, s.step.dt_last,
+          bound(p, &s.step), fluids(sim), used > 0 ? 1e-6 * s.pairs / used : 0, floor(left / 60),
+          floor(fmod(left, 60)), p->live ? "" : "\n");
+  fflush(stderr);
+}
+
+/* On a terminal five times a second, else after each tenth of the run. */
+static int is_due(prog_progress *p, const sph_sim *sim)
+{
+  if (p->live) {
+    double t = now();
+    if (t - p->shown < 0.2) return 0;
+    p->shown = t;
+    return 1;
+  }
+  double tenth = floor(10 * sph_sim_time(sim) / p->end * (1 + 1e-12));
+  if (tenth <= p->tenth) return 0;
+  p->tenth = tenth;
+  return 1;
+}
+
+static int progress(void *ctx, sph_sim *sim)
+{
+  prog_progress *p = ctx;
+  if (!p->quiet && is_due(p, sim)) tell(p, sim);
+  return stopped_by != 0;
+}
+
+void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int quiet)
+{
+  struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESETHAND};
+  *p = (prog_progress){.end = end, .start = now(), .quiet = quiet, .live = isatty(STDERR_FILENO)};
+  sigemptyset(&action.sa_mask); /* a second Ctrl-C ends the program at once */
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+  sph_sim_set_progress(sim, progress, p);
+}
+
+void sph_prog_progress_end(prog_progress *p)
+{
+  if (p->live && !p->quiet) fputs("\r\033[K", stderr);
+}
+
+int sph_prog_progress_signal(void) { return stopped_by; }
