@@ -106,8 +106,11 @@ static void choose_range(picture *p, double *value)
   p->from = n ? value[(long)(cut * (double)(n - 1))] : 0;
   p->to = n ? value[(long)((1 - cut) * (double)(n - 1))] : 1;
   if (p->from > 0 && p->from < 0.3 * p->to) p->from = 0;
-  double least = fmax(1e-12, 1e-6 * fmax(fabs(p->from), fabs(p->to)));
-  if (p->to - p->from < least) p->to = p->from + least;
+  double least = fmax(1e-12, 1e-4 * fmax(fabs(p->from), fabs(p->to))); /* a constant field */
+  if (p->to - p->from < least) {
+    p->from -= least;
+    p->to += least;
+  }
 }
 
 static void choose_label(picture *p)
@@ -193,9 +196,9 @@ static void add_head(const picture *p, sph_text *script)
   sheet(p, size);
   double span = size[1] - bottom - top;
   sph_text_add(script, "radius = %.6g # of a particle [m]\n",
-               (squares(p) ? 0.6 : 0.53) * p->frame[0].spacing);
+               (squares(p) ? 0.68 : 0.55) * p->frame[0].spacing);
   sph_text_add(script, "unit = %g\n\n%s", p->unit, palette);
-  sph_text_add(script, "set cbrange [%.6g:%.6g]\nset cblabel ", p->from / p->unit, p->to / p->unit);
+  sph_text_add(script, "set cbrange [%.9g:%.9g]\nset cblabel ", p->from / p->unit, p->to / p->unit);
   sph_text_gnuplot_string(script, p->label);
   sph_text_add(script, " offset 1.2, 0\nset cbtics %.6g",
                tics((p->to - p->from) / p->unit, span, 70));
@@ -204,7 +207,7 @@ static void add_head(const picture *p, sph_text *script)
   sph_text_add(script, "set xrange [%.6g:%.6g]\n", p->lo[0], p->hi[0]);
   if (p->dim == 1) {
     double more = 0.05 * (p->to - p->from);
-    sph_text_add(script, "unset colorbox\nset grid lc rgb '#dddddd'\nset yrange [%.6g:%.6g]\n",
+    sph_text_add(script, "unset colorbox\nset grid lc rgb '#dddddd'\nset yrange [%.9g:%.9g]\n",
                  (p->from - more) / p->unit, (p->to + more) / p->unit);
   } else {
     sph_text_add(script, "set yrange [%.6g:%.6g]\n", p->lo[1], p->hi[1]);

@@ -257,12 +257,11 @@ static void write_groups(writer *w)
 static void write_provenance(writer *w, const char *case_text, const char *command)
 {
   sph_h5 *h5 = &w->h5;
-  char version[64];
   hid_t code = sph_h5_group(h5, w->file, "Code");
   sph_h5_string(h5, code, "Name", "sphode");
   sph_h5_string(h5, code, "Version", sph_version());
   sph_h5_string(h5, code, "Compiler", sph_versions_compiler());
-  sph_h5_string(h5, code, "SUNDIALS", sph_versions_sundials(version, sizeof version));
+  sph_h5_string(h5, code, "SUNDIALS", sph_versions_sundials());
   if (command) sph_h5_text(h5, code, "Command", command);
   if (code >= 0) H5Gclose(code);
   hid_t parameters = sph_h5_group(h5, w->file, "Parameters");

@@ -75,7 +75,7 @@ static void json_who(sph_text *t, const facts *f)
   char text[200];
   sph_text_add(t, "{\n  \"program\": \"sphode\"");
   string(t, "version", sph_version());
-  string(t, "sundials", sph_versions_sundials(text, sizeof text));
+  string(t, "sundials", sph_versions_sundials());
   string(t, "hdf5", sph_versions_hdf5(text, sizeof text));
   string(t, "compiler", sph_versions_compiler());
   string(t, "machine", sph_versions_machine(text, sizeof text));
@@ -241,14 +241,14 @@ static void text_comparisons(sph_text *t, const facts *f)
 
 static void text_who(sph_text *t, const facts *f)
 {
-  char machine[200], sundials[64];
+  char machine[200];
   line(t, "machine");
   sph_text_add(t, "%s; %s, %d thread%s\n", sph_versions_machine(machine, sizeof machine),
                sph_sim_isa(f->sim), sph_sim_threads(f->sim),
                sph_sim_threads(f->sim) == 1 ? "" : "s");
   line(t, "made with");
-  sph_text_add(t, "sphode %s, SUNDIALS %s, %s\n", sph_version(),
-               sph_versions_sundials(sundials, sizeof sundials), sph_versions_compiler());
+  sph_text_add(t, "sphode %s, SUNDIALS %s, %s\n", sph_version(), sph_versions_sundials(),
+               sph_versions_compiler());
   if (sph_sim_status(f->sim) == SPH_OK) return;
   line(t, "ended with");
   sph_text_add(t, "%s\n", sph_sim_error(f->sim));

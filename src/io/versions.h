@@ -4,9 +4,9 @@
 #include <stddef.h>
 
 const char *sph_versions_compiler(void);
+const char *sph_versions_sundials(void); /* "6.4.1" */
 /* Each fills text (at most size bytes) and returns it. */
-const char *sph_versions_sundials(char *text, size_t size); /* "6.4.1" */
-const char *sph_versions_hdf5(char *text, size_t size);     /* "1.10.8" */
-const char *sph_versions_machine(char *text, size_t size);  /* "Linux x86_64, 2 x <processor>" */
+const char *sph_versions_hdf5(char *text, size_t size);    /* "1.10.8" */
+const char *sph_versions_machine(char *text, size_t size); /* "Linux x86_64, 2 x <processor>" */
 
 #endif
