@@ -37,7 +37,10 @@ typedef struct sph_output {
  *   /Groups    names and kinds; the dataset "Group" of a particle counts them from 0
  *   /Code /Parameters /Units   where the numbers come from
  * walls_0000.hdf: the walls for ParaView, a link into the snapshot.  ParaView opens
- * snapshot.hdf.series and walls.hdf.series, which know the times. */
+ * snapshot.hdf.series and walls.hdf.series, which know the times.
+ *
+ * Files of the same names are replaced; of an older, longer run in the same directory the last
+ * ones stay, which the .series do not list. */
 typedef struct sph_hdf5_def {
   const char *directory;
   double interval;       /* [s]; see sph_output */

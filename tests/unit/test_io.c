@@ -11,6 +11,7 @@
 #include <errno.h>
 #include <hdf5.h>
 #include <math.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -358,6 +359,46 @@ static void impossible_directory_is_told(void **state)
   sph_sim_free(sim);
 }
 
+static void *write_in_a_thread(void *path)
+{
+  sph_error error = {0};
+  sph_sim *sim = tank(0, 0);
+  int status = write_frames(sph_output_hdf5(path, 1), sim, 8, &error);
+  sph_sim_free(sim);
+  return status == SPH_OK ? path : NULL;
+}
+
+/* HDF5 as packaged is not thread-safe: the library must see to it. */
+static void two_threads_write_at_once(void **state)
+{
+  (void)state;
+  char path[2][600];
+  pthread_t thread[2];
+  for (int k = 0; k < 2; k++) {
+    snprintf(path[k], sizeof path[k], "%s/thread%d", directory, k);
+    assert_int_equal(pthread_create(&thread[k], NULL, write_in_a_thread, path[k]), 0);
+  }
+  for (int k = 0; k < 2; k++) {
+    void *result = NULL;
+    assert_int_equal(pthread_join(thread[k], &result), 0);
+    assert_ptr_equal(result, path[k]);
+    for (int frame = 0; frame < 8; frame++) {
+      char name[64];
+      sph_snapshot s;
+      sph_error error = {0};
+      snprintf(name, sizeof name, "thread%d/snapshot_%04d.hdf", k, frame);
+      assert_int_equal(sph_snapshot_read(in(name), "pressure", &s, &error), SPH_OK);
+      sph_snapshot_read_free(&s);
+      unlink(in(name));
+      snprintf(name, sizeof name, "thread%d/walls_%04d.hdf", k, frame);
+      assert_int_equal(unlink(in(name)), 0);
+    }
+    unlink(in(k ? "thread1/snapshot.hdf.series" : "thread0/snapshot.hdf.series"));
+    unlink(in(k ? "thread1/walls.hdf.series" : "thread0/walls.hdf.series"));
+    assert_int_equal(rmdir(path[k]), 0); /* nothing else was there */
+  }
+}
+
 /* ---- monitors ---- */
 
 static double monitor(sph_sim *sim, sph_monitor m)
@@ -675,6 +716,7 @@ int main(void)
       TEST(full_disk_leaves_whole_rows),
       TEST(killed_run_leaves_whole_files),
       TEST(impossible_directory_is_told),
+      TEST(two_threads_write_at_once),
       TEST(front_ignores_spray),
       TEST(front_of_random_points),
       TEST(pressure_of_a_linear_field),
