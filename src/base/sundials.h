@@ -27,8 +27,8 @@
 SUNContext sph_sundials_context(sph_error *error);
 void sph_sundials_context_free(SUNContext context); /* NULL is fine */
 
-/* What SUNDIALS says of the stepper `memory` goes to listen(text, ctx) until that is freed; from 7.0
- * on it is what it says in the context, until sph_sundials_deaf.  0 or a failure. */
+/* What SUNDIALS says of the stepper `memory` goes to listen(text, ctx) until that is freed; from
+ * 7.0 on it is what it says in the context, until sph_sundials_deaf.  0 or a failure. */
 typedef struct sph_sundials_listener {
   void (*listen)(const char *text, void *ctx);
   void *ctx;

@@ -1,6 +1,6 @@
 /* Every operation runs over chunks: at most CHUNK entries of one segment, never its padding.  The
- * chunks are the same for any number of threads, and so are the sums: one partial sum a chunk, added
- * in order. */
+ * chunks are the same for any number of threads, and so are the sums: one partial sum a chunk, added in
+ * order. */
 #include "nvector.h"
 
 #include <math.h>

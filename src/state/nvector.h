@@ -1,7 +1,7 @@
 /* nvector.h -- our own N_Vector: one contiguous, 64-byte aligned block of doubles.
  *
- * Operations leave padding alone.  Reductions sum fixed chunks of each segment's n entries in order:
- * bitwise the same for any number of threads. */
+ * Operations leave padding alone.  Reductions sum fixed chunks of each segment's n entries in
+ * order: bitwise the same for any number of threads. */
 #ifndef SPH_NVECTOR_H
 #define SPH_NVECTOR_H
 #include "layout.h"

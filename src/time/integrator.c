@@ -1,230 +1,257 @@
-/* The loop around one-step calls: limits, retries, records. */
+/* The loop over steps: limits, attempts, retries, stop times, statistics. */
 #include "integrator.h"
 
+#include <float.h>
 #include <math.h>
-#include <stddef.h>
 
+#include "integrator_data.h"
+#include "integrator_table.h"
 #include "memory.h"
-#include "stepper.h"
 
-struct sph_integrator {
-  sph_integrator_def def; /* without zeros: defaults are filled in */
-  sph_problem problem;
-  sph_method method;
-  sph_stepper stepper;
-  sph_step_stats stats;
-  N_Vector saved;   /* the state before the step */
-  int bound;        /* what bound the last step */
-  double reduction; /* of the cap, after steps that were not admissible; grows back to 1 */
-  double dt_min;
-};
+static const double CLOSE = 1e-6; /* relative: such step sizes are the same */
 
-static int check_number(const char *name, double value, double least, sph_error *error)
+int sph_integrator_info_get(int k, sph_integrator_info *info)
 {
-  if (isfinite(value) && value >= least) return SPH_OK;
-  return sph_error_set(error, SPH_ERR_ARGUMENT,
-                       "integrator: %s = %g; right is a finite number >= %g", name, value, least);
+  return info ? sph_integrator_table_info(k, info) : 0;
+}
+
+static int check_value(const char *name, double value, const char *right, int good,
+                       sph_error *error)
+{
+  if (good && isfinite(value)) return SPH_OK;
+  return sph_error_set(error, SPH_ERR_ARGUMENT, "integrator: %s = %g; right is %s", name, value,
+                       right);
 }
 
 int sph_integrator_check(const sph_integrator_def *def, sph_error *error)
 {
-  sph_method method;
-  int status = sph_integrator_table_find(def->method, &method, error);
-  if (!status) status = check_number("cfl", def->cfl, 0, error);
-  if (!status) status = check_number("tolerance", def->tolerance, -1e300, error);
-  if (!status) status = check_number("dt_max", def->dt_max, 0, error);
-  if (!status) status = check_number("dt_min", def->dt_min, 0, error);
-  if (!status) status = check_number("dt_fixed", def->dt_fixed, 0, error);
-  if (!status && def->retries < 0)
-    status = sph_error_set(error, SPH_ERR_ARGUMENT, "integrator: retries = %d; right is >= 0",
-                           def->retries);
+  sph_integrator_info info = {0};
+  int row = sph_integrator_table_find(def->method, error);
+  if (row < 0) return SPH_ERR_ARGUMENT;
+  if (!sph_integrator_table_info(row, &info))
+    return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: table of %s", def->method);
+  int status = check_value("cfl", def->cfl, "0 (default) or more", def->cfl >= 0, error);
+  if (!status) status = check_value("tolerance", def->tolerance, "any finite number", 1, error);
+  if (!status)
+    status = check_value("dt_max", def->dt_max, "0 or more [s]", def->dt_max >= 0, error);
+  if (!status)
+    status = check_value("dt_min", def->dt_min, "0 or more [s]", def->dt_min >= 0, error);
+  if (!status)
+    status = check_value("dt_fixed", def->dt_fixed, "0 or more [s]", def->dt_fixed >= 0, error);
+  if (!status)
+    status = check_value("retries", def->retries, "0 (default) or more", def->retries >= 0, error);
+  if (!status && def->tolerance > 0 && !info.error_control)
+    status = sph_error_set(error, SPH_ERR_ARGUMENT,
+                           "integrator: tolerance = %g, but %s has no error estimate; right is 0",
+                           def->tolerance, info.name);
   return status;
 }
 
-static void fill_defaults(sph_integrator *in)
+/* Fills in the defaults. */
+static void define(sph_integrator *it, const sph_integrator_def *def, int row)
 {
-  sph_integrator_def *def = &in->def;
-  if (!in->method.error_control || def->dt_fixed > 0) def->tolerance = -1;
-  if (def->tolerance == 0) def->tolerance = 1e-2;
-  if (def->cfl == 0) def->cfl = def->tolerance > 0 ? 0.8 : 0.35;
-  if (def->dt_max == 0) def->dt_max = INFINITY;
-  if (def->retries == 0) def->retries = 12;
-  def->method = in->method.name;
-}
-
-/* The least of all limits, and which it is. */
-static int limit(sph_stepper *s, double *cap, int *bound)
-{
-  sph_integrator *in = (sph_integrator *)((char *)s - offsetof(sph_integrator, stepper));
-  sph_step_limit limits = {{0}};
-  for (int k = 0; k < SPH_BOUND_COUNT; k++) limits.dt[k] = INFINITY;
-  if (in->problem.limits) {
-    int status = in->problem.limits(s->t, s->y, &limits, in->problem.ctx);
-    if (status) return status;
-  }
-  limits.dt[SPH_BOUND_CFL] *= in->def.cfl * in->method.stability;
-  limits.dt[SPH_BOUND_USER] = fmin(limits.dt[SPH_BOUND_USER], in->def.dt_max);
-  *bound = SPH_BOUND_ERROR;
-  *cap = INFINITY;
-  for (int k = 0; k < SPH_BOUND_COUNT; k++)
-    if (limits.dt[k] < *cap) {
-      *cap = limits.dt[k];
-      *bound = k;
-    }
-  if (in->reduction < 1) {
-    *cap *= in->reduction;
-    *bound = SPH_BOUND_RETRY;
-  }
-  if (in->def.dt_fixed > 0) {
-    *cap = in->def.dt_fixed * in->reduction;
-    *bound = in->reduction < 1 ? SPH_BOUND_RETRY : SPH_BOUND_USER;
-  }
-  return SPH_OK;
-}
-
-/* A first step when nothing limits it: small against the stop time. */
-static double bounded(double cap, double t, double t_stop)
-{
-  if (cap < INFINITY) return cap;
-  return t_stop < INFINITY ? (t_stop - t) / 100 : 1e-3;
+  it->row = row;
+  it->def = *def;
+  it->def.method = it->info.name;
+  it->adaptive = it->info.error_control && def->tolerance >= 0 && !(def->dt_fixed > 0);
+  if (def->tolerance == 0) it->def.tolerance = 1e-2;
+  if (def->cfl == 0) it->def.cfl = it->adaptive ? 0.8 : 0.35;
+  if (def->retries == 0) it->def.retries = 12;
 }
 
 sph_integrator *sph_integrator_create(const sph_integrator_def *def, const sph_problem *problem,
                                       double t, N_Vector y, SUNContext context, sph_error *error)
 {
-  static const sph_integrator_def defaults = {0};
-  if (!def) def = &defaults;
   if (sph_integrator_check(def, error)) return NULL;
-  sph_integrator *in = SPH_NEW(sph_integrator, 1, "the integrator", error);
-  if (!in) return NULL;
-  in->def = *def;
-  in->problem = *problem;
-  if (!in->problem.error) in->problem.error = error;
-  in->reduction = 1;
-  in->dt_min = def->dt_min;
-  in->stats.dt_smallest = INFINITY;
-  int status = sph_integrator_table_find(def->method, &in->method, error);
-  fill_defaults(in);
-  in->stepper = (sph_stepper){.scheme = in->method.scheme,
-                              .method = &in->method,
-                              .def = &in->def,
-                              .problem = &in->problem,
-                              .stats = &in->stats,
-                              .context = context,
-                              .y = y,
-                              .t = t,
-                              .t_previous = t,
-                              .limit = limit};
-  in->saved = N_VClone(y);
-  if (!in->saved)
-    status = sph_error_set(error, SPH_ERR_MEMORY, "out of memory: the state before a step");
-  if (!status) status = in->stepper.scheme->create(&in->stepper);
-  if (!status) return in;
-  sph_integrator_free(in);
+  sph_integrator *it = SPH_NEW(sph_integrator, 1, "an integrator", error);
+  if (!it) return NULL;
+  int row = sph_integrator_table_find(def->method, error);
+  int status = sph_integrator_table_info(row, &it->info) ? SPH_OK : SPH_ERR_MEMORY;
+  define(it, def, row);
+  it->problem = *problem;
+  it->y = y;
+  it->time = it->previous = t;
+  it->cap = INFINITY;
+  it->before = N_VClone(y);
+  it->stepper = sph_integrator_table_erk(row) == ARKODE_ERK_NONE ? &sph_integrator_leapfrog
+                                                                 : &sph_integrator_erk;
+  if (!it->before) status = SPH_ERR_MEMORY;
+  if (!status) status = it->stepper->create(it, context);
+  if (!status) return it;
+  sph_error_set(error, status, "integrator %s: %s", it->info.name, sph_status_text(status));
+  sph_integrator_free(it);
   return NULL;
 }
 
-void sph_integrator_free(sph_integrator *in)
+void sph_integrator_free(sph_integrator *it)
 {
-  if (!in) return;
-  if (in->stepper.memory) in->stepper.scheme->free(&in->stepper);
-  if (in->saved) N_VDestroy(in->saved);
-  sph_memory_free(in);
+  if (!it) return;
+  it->stepper->free(it);
+  if (it->before) N_VDestroy(it->before);
+  sph_memory_free(it);
 }
 
-static int admissible(sph_integrator *in)
+int sph_integrator_rhs(sph_integrator *it, double t, N_Vector y, N_Vector ydot)
 {
-  sph_stepper *s = &in->stepper;
-  return in->problem.admissible ? in->problem.admissible(s->t, s->y, in->problem.ctx) : SPH_OK;
+  it->stats.rhs_evaluations++;
+  it->rhs_status = it->problem.rhs(t, y, ydot, it->problem.ctx);
+  return it->rhs_status;
 }
 
-/* One attempt; afterwards (t, y) is the new state, or the old one and the scheme is ready to try again. */
-static int attempt(sph_integrator *in, double cap, double t_stop)
+int sph_integrator_limit(sph_integrator *it, double t, N_Vector y)
 {
-  sph_stepper *s = &in->stepper;
-  double t = s->t, t_previous = s->t_previous;
-  int status = s->scheme->step(s, cap, t_stop);
-  if (!status) status = admissible(in);
-  if (!status) return SPH_OK;
-  N_VScale(1, in->saved, s->y);
-  s->t = t;
-  s->t_previous = t_previous;
-  if (status > 0 && s->scheme->reset(s)) status = in->problem.error->status;
+  sph_step_limit limit;
+  for (int k = 0; k < SPH_BOUND_COUNT; k++) limit.dt[k] = INFINITY;
+  int status = it->problem.limits ? it->problem.limits(t, y, &limit, it->problem.ctx) : SPH_OK;
+  limit.dt[SPH_BOUND_CFL] *= it->def.cfl * it->info.stability;
+  if (it->def.dt_max > 0) limit.dt[SPH_BOUND_USER] = fmin(limit.dt[SPH_BOUND_USER], it->def.dt_max);
+  it->limit = INFINITY;
+  it->cause = SPH_BOUND_USER;
+  for (int k = 0; k < SPH_BOUND_COUNT; k++)
+    if (!(limit.dt[k] >= it->limit)) { /* a limit that is no number binds, and fails below dt_min */
+      it->limit = limit.dt[k];
+      it->cause = k;
+    }
   return status;
 }
 
-static void record(sph_integrator *in, int bound, double t_stop)
+int sph_integrator_fail(sph_integrator *it, int status, const char *why)
 {
-  const sph_stepper *s = &in->stepper;
-  sph_step_stats *stats = &in->stats;
-  double dt = s->t - s->t_previous;
-  if (s->error_bound) bound = SPH_BOUND_ERROR;
-  if (s->t == t_stop) bound = SPH_BOUND_STOP;
-  in->bound = bound;
-  stats->bound_by[bound]++;
-  stats->steps++;
-  stats->dt_last = dt;
-  stats->dt_smallest = fmin(stats->dt_smallest, dt);
-  stats->dt_largest = fmax(stats->dt_largest, dt);
-  in->reduction = fmin(1, 2 * in->reduction);
+  return sph_error_set(it->problem.error, status < 0 ? status : SPH_ERR_STEP,
+                       "%s: step at t = %.9g s: %s", it->info.name, it->time, why);
 }
 
-static int give_up(sph_integrator *in, double dt, int halvings)
+/* One evaluation at (time, y), then the first limits. */
+static int start(sph_integrator *it)
 {
-  return sph_error_set(
-      in->problem.error, SPH_ERR_STEP,
-      "t = %.9g s: no admissible step, the last try was %g s after %d halvings (dt_min = %g s)",
-      in->stepper.t, dt, halvings, in->dt_min);
+  int status = it->stepper->start(it);
+  if (!status) status = sph_integrator_limit(it, it->time, it->y);
+  if (status) return sph_integrator_fail(it, status, "no rates and limits at its start");
+  if (!it->adaptive && !(it->def.dt_fixed > 0) && !(it->limit < INFINITY))
+    return sph_integrator_fail(it, SPH_ERR_ARGUMENT,
+                               "nothing limits it; right is a limit, dt_max or dt_fixed");
+  if (it->def.dt_min == 0 && it->limit < INFINITY) it->def.dt_min = 1e-9 * it->limit;
+  it->started = 1;
+  return SPH_OK;
 }
 
-int sph_integrator_step(sph_integrator *in, double t_stop)
+static sph_attempt plan(const sph_integrator *it, double t_stop)
 {
-  sph_stepper *s = &in->stepper;
-  if (!(t_stop > s->t))
-    return sph_error_set(in->problem.error, SPH_ERR_ARGUMENT,
-                         "stop time %g s is not after t = %g s", t_stop, s->t);
-  N_VScale(1, s->y, in->saved);
-  for (int halvings = 0;; halvings++) {
-    double cap;
-    int bound, status = limit(s, &cap, &bound);
-    if (status) return status < 0 ? status : give_up(in, 0, halvings);
-    cap = bounded(cap, s->t, t_stop);
-    if (in->dt_min == 0) in->dt_min = 1e-9 * cap;
-    if (cap < in->dt_min) return give_up(in, cap, halvings);
-    if (halvings || in->stats.steps == 0) s->next = halvings ? cap : 0.25 * cap;
-    status = attempt(in, cap, t_stop);
-    if (status == SPH_OK) {
-      record(in, bound, t_stop);
-      return SPH_OK;
-    }
-    if (status < 0) return sph_error_set(in->problem.error, status, "the right-hand side failed");
-    in->stats.retries++;
-    if (halvings == in->def.retries) return give_up(in, cap, halvings);
-    in->reduction *= 0.5;
+  sph_attempt a = {.limit = it->limit, .bound = it->cause};
+  double left = t_stop - it->time;
+  if (it->def.dt_fixed > 0) {
+    a.limit = it->def.dt_fixed;
+    a.bound = SPH_BOUND_USER;
+  } else if (it->cap < it->limit) {
+    a.limit = it->cap;
+    a.bound = SPH_BOUND_RETRY;
   }
+  a.h = a.limit;
+  if (!it->adaptive && left < a.limit * (1 - CLOSE)) a.bound = SPH_BOUND_STOP;
+  if (!it->adaptive && left < a.limit * (1 + CLOSE)) a.h = left;
+  return a;
 }
 
-double sph_integrator_time(const sph_integrator *in) { return in->stepper.t; }
-double sph_integrator_previous(const sph_integrator *in) { return in->stepper.t_previous; }
-
-int sph_integrator_interpolate(sph_integrator *in, double t, N_Vector at)
+static int accept(sph_integrator *it, const sph_attempt *a)
 {
-  sph_stepper *s = &in->stepper;
-  if (!(t >= s->t_previous && t <= s->t))
-    return sph_error_set(in->problem.error, SPH_ERR_ARGUMENT,
-                         "no dense output at t = %g s outside [%g, %g]", t, s->t_previous, s->t);
-  if (t == s->t) {
-    N_VScale(1, s->y, at);
+  sph_step_stats *stats = &it->stats;
+  it->previous = it->time;
+  it->time = a->t;
+  it->stepped = 1;
+  it->bound = a->bound;
+  stats->bound_by[a->bound]++;
+  stats->dt_last = a->h;
+  stats->dt_largest = fmax(stats->dt_largest, a->h);
+  if (stats->steps == 0 || (a->bound != SPH_BOUND_STOP && a->h < stats->dt_smallest))
+    stats->dt_smallest = a->h;
+  stats->steps++;
+  int status = it->adaptive ? SPH_OK : sph_integrator_limit(it, it->time, it->y);
+  it->cap = 2 * it->cap < it->limit ? 2 * it->cap : INFINITY;
+  return status ? sph_integrator_fail(it, status, "no limits at its end") : SPH_OK;
+}
+
+/* The attempt failed: back to the last good state, with half of its step.  0: try again. */
+static int retry(sph_integrator *it, const sph_attempt *a, int halvings, int status)
+{
+  N_VScale(1, it->before, it->y);
+  if (status < 0) return sph_integrator_fail(it, status, "it failed");
+  if (halvings >= it->def.retries || it->def.dt_fixed > 0)
+    return sph_error_set(
+        it->problem.error, SPH_ERR_STEP,
+        "%s: step at t = %.9g s is not admissible with dt = %.3g s after %d halvings%s",
+        it->info.name, it->time, a->h, halvings,
+        it->def.dt_fixed > 0 ? " (dt_fixed allows none)" : "");
+  it->cap = a->h / 2;
+  it->stats.retries++;
+  status = it->stepper->reject(it);
+  return status ? sph_integrator_fail(it, status, "it cannot be repeated") : SPH_OK;
+}
+
+static int too_small(sph_integrator *it, const sph_attempt *a)
+{
+  if (a->bound == SPH_BOUND_STOP || a->h >= it->def.dt_min) return SPH_OK;
+  return sph_error_set(it->problem.error, SPH_ERR_STEP,
+                       "%s: step at t = %.9g s: dt = %.3g s (bound by %s) is below dt_min = %.3g s",
+                       it->info.name, it->time, a->h, sph_bound_name(a->bound), it->def.dt_min);
+}
+
+int sph_integrator_step(sph_integrator *it, double t_stop)
+{
+  int status = SPH_OK;
+  if (!(isfinite(t_stop) && t_stop > it->time))
+    return sph_error_set(it->problem.error, SPH_ERR_ARGUMENT,
+                         "stop time %g s; right is finite and > %g s", t_stop, it->time);
+  if (!it->started) status = start(it);
+  if (status) return status;
+  if (t_stop - it->time <= 8 * DBL_EPSILON * fmax(fabs(t_stop), fabs(it->time))) {
+    it->time = t_stop; /* nothing happens in a rounding error */
     return SPH_OK;
   }
-  return s->scheme->interpolate(s, t, at);
+  N_VScale(1, it->y, it->before);
+  for (int halvings = 0;; halvings++) {
+    sph_attempt a = plan(it, t_stop);
+    status = too_small(it, &a);
+    if (status) return status;
+    status = it->stepper->attempt(it, &a, t_stop);
+    if (!status && it->problem.admissible)
+      status = it->problem.admissible(a.t, it->y, it->problem.ctx);
+    if (!status) return accept(it, &a);
+    status = retry(it, &a, halvings, status);
+    if (status) return status;
+  }
 }
 
-int sph_integrator_reset(sph_integrator *in, double t)
+double sph_integrator_time(const sph_integrator *it) { return it->time; }
+double sph_integrator_previous(const sph_integrator *it) { return it->previous; }
+const sph_step_stats *sph_integrator_stats(const sph_integrator *it) { return &it->stats; }
+int sph_integrator_bound(const sph_integrator *it) { return it->bound; }
+
+int sph_integrator_interpolate(sph_integrator *it, double t, N_Vector at)
 {
-  in->stepper.t = in->stepper.t_previous = t;
-  return in->stepper.scheme->reset(&in->stepper);
+  double slack = 100 * DBL_EPSILON * fmax(fabs(it->previous), fabs(it->time));
+  if (t == it->time) {
+    N_VScale(1, it->y, at);
+    return SPH_OK;
+  }
+  if (!it->stepped)
+    return sph_error_set(it->problem.error, SPH_ERR_STATE,
+                         "no state at t = %g s: there is no last step since the start or a reset",
+                         t);
+  if (!(t >= it->previous - slack && t <= it->time + slack))
+    return sph_error_set(it->problem.error, SPH_ERR_ARGUMENT,
+                         "no state at t = %g s; right is in the last step, %g to %g s", t,
+                         it->previous, it->time);
+  int status = it->stepper->interpolate(it, fmin(fmax(t, it->previous), it->time), at);
+  return status ? sph_integrator_fail(it, status, "no dense output") : SPH_OK;
 }
 
-const sph_step_stats *sph_integrator_stats(const sph_integrator *in) { return &in->stats; }
-int sph_integrator_bound(const sph_integrator *in) { return in->bound; }
+int sph_integrator_reset(sph_integrator *it, double t)
+{
+  if (!isfinite(t))
+    return sph_error_set(it->problem.error, SPH_ERR_ARGUMENT, "reset to t = %g s; right is finite",
+                         t);
+  it->time = it->previous = t;
+  it->started = it->stepped = 0;
+  it->cap = INFINITY;
+  return SPH_OK;
+}

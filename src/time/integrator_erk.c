@@ -1,220 +1,209 @@
-/* ARKODE's explicit Runge-Kutta methods, one step at a call.
- *
- * Nothing is left to a default: they differ between SUNDIALS versions.  With error control the step limit goes through
- * the stability function; without it a fixed step is set before each call (there the function would be ignored). */
+/* ARKODE's explicit Runge-Kutta schemes, one step a call.  Nothing is left to the defaults of ARKODE,
+ * which differ between versions: table, controller, growth, interpolation are set here. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
+#include "integrator_data.h"
+#include "integrator_table.h"
 #include "memory.h"
-#include "stepper.h"
 
-#if SPH_SUNDIALS_NUMBER >= 60700
-#include <sunadaptcontroller/sunadaptcontroller_soderlind.h>
-#endif
+static const double CLOSE = 1e-6; /* relative: such step sizes are the same */
 
-typedef struct memory {
-  void *arkode;
-  ARKodeButcherTable table;
-#if SPH_SUNDIALS_NUMBER >= 60700
-  SUNAdaptController controller;
-#endif
-  double cap;    /* given to ARKODE for the step after the last one */
-  long rejected; /* error test failures counted so far since the last reset */
-  char message[300];
-} memory;
+typedef struct erk {
+  void *memory; /* ARKODE's */
+  SUNContext context;
+  sph_sundials_listener listener;
+  sph_sundials_controller controller;
+  int listening;
+  int used;       /* ARKODE has made a step since its creation */
+  int fresh;      /* the next attempt starts anew, with the step size of its plan */
+  double resume;  /* > 0: start anew with this step, which a stop time had cut short [s] */
+  char text[400]; /* what ARKODE said last */
+} erk;
 
-static int rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *ctx)
+static int rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *data)
 {
-  int status = sph_stepper_rhs(ctx, t, y, ydot);
-  return status > 0 ? 1 : status < 0 ? -1 : 0;
+  return sph_integrator_rhs(data, t, y, ydot);
 }
 
-/* 1/(tolerance scale) */
-static int weights(N_Vector y, N_Vector w, void *ctx)
+/* 1 / (tolerance scale); without error control any positive weights do. */
+static int weigh(N_Vector y, N_Vector weight, void *data)
 {
-  const sph_stepper *s = ctx;
-  int status = s->problem->weights(y, w, s->problem->ctx);
-  if (status) return -1;
-  N_VScale(1 / s->def->tolerance, w, w);
-  return 0;
+  sph_integrator *it = data;
+  if (!it->adaptive || !it->problem.weights) {
+    N_VConst(it->adaptive ? 1 / it->def.tolerance : 1, weight);
+    return 0;
+  }
+  int status = it->problem.weights(y, weight, it->problem.ctx);
+  if (!status) N_VScale(1 / it->def.tolerance, weight, weight);
+  return status;
 }
 
-/* ARKODE multiplies by the CFL fraction, which must be under 1: undone here. */
-static const double FRACTION = 0.5;
-
-static int stability(N_Vector y, sunrealtype t, sunrealtype *h, void *ctx)
+/* ARKODE takes the fraction 1/2 of this, an exact number: the limits are ours. */
+static int stable(N_Vector y, sunrealtype t, sunrealtype *h, void *data)
 {
-  sph_stepper *s = ctx;
-  memory *m = s->memory;
-  int bound;
-  (void)y, (void)t;
-  int status = s->limit(s, &m->cap, &bound);
-  *h = m->cap < 1e300 ? m->cap / FRACTION : 1e300;
-  return status ? -1 : 0;
+  sph_integrator *it = data;
+  int status = sph_integrator_limit(it, t, y);
+  double limit = fmin(it->limit, 2 * it->cap); /* cap is that of the step that just ends */
+  *h = limit < INFINITY ? 2 * limit : 0;       /* 0: none */
+  return status;
 }
 
-/* A post-processing function that does nothing: before SUNDIALS 6.7.0 a table whose last stage is at the end of the
- * step, but is not the next step's first, was taken for such a one and lost its order (LLNL/sundials#311). */
+/* Integral controller: error ~ h^(p + 1) with an embedded scheme of order p = order - 1.  Without memory,
+ * so that a restart changes nothing. */
+static double control(double h, double error, void *data)
+{
+  const sph_integrator *it = data;
+  if (!(error < INFINITY)) return h / 10;
+  return h * pow(fmax(error, 1e-10), -1.0 / it->info.order);
+}
+
+static void listen(const char *text, void *data)
+{
+  erk *own = data;
+  snprintf(own->text, sizeof own->text, "%s", text);
+}
+
 #if SPH_SUNDIALS_NUMBER < 60700
-static int nothing(sunrealtype t, N_Vector y, void *ctx)
+static int nothing(sunrealtype t, N_Vector y, void *data)
 {
-  (void)t, (void)y, (void)ctx;
+  (void)t, (void)y, (void)data;
   return 0;
 }
-static int work_around(const sph_stepper *s, void *arkode)
+
+/* SUNDIALS up to 6.6.2 takes any last stage at c = 1 for the rate at the end, and loses order; a hook
+ * after the step makes it evaluate anew. */
+static int repair(void *memory, int row)
 {
-  return s->method->fsal ? 0 : ERKStepSetPostprocessStepFn(arkode, nothing);
+  ARKodeButcherTable table = ARKodeButcherTable_LoadERK(sph_integrator_table_erk(row));
+  if (!table) return -1;
+  int wrong = fabs(table->c[table->stages - 1] - 1) < 1e-10 && !sph_integrator_table_fsal(table);
+  ARKodeButcherTable_Free(table);
+  return wrong ? ERKStepSetPostprocessStepFn(memory, nothing) : 0;
 }
-static void hush(int code, const char *module, const char *function, char *text, void *ctx)
-{
-  memory *m = ((sph_stepper *)ctx)->memory;
-  (void)module;
-  if (code < 0) snprintf(m->message, sizeof m->message, "%s: %.250s", function, text);
-}
-static int quiet(sph_stepper *s, void *arkode) { return ERKStepSetErrHandlerFn(arkode, hush, s); }
 #else
-static int work_around(const sph_stepper *s, void *arkode) { return (void)s, (void)arkode, 0; }
-static int quiet(sph_stepper *s, void *arkode) { return (void)s, (void)arkode, 0; }
+static int repair(void *memory, int row)
+{
+  (void)memory, (void)row;
+  return 0;
+}
 #endif
 
-/* PI controller with Gustafsson's usual gains. */
-static int set_controller(sph_stepper *s, memory *m)
+static int configure(sph_integrator *it, erk *own)
 {
-#if SPH_SUNDIALS_NUMBER >= 60700
-  m->controller = SUNAdaptController_PI(s->context);
-  if (!m->controller || SUNAdaptController_SetParams_PI(m->controller, 0.8, 0.31)) return -1;
-  return SPH_ERK(SetAdaptController)(m->arkode, m->controller);
-#else
-  sunrealtype gains[3] = {0.8, 0.31, 0};
-  (void)s;
-  return ERKStepSetAdaptivityMethod(m->arkode, ARK_ADAPT_PI, 0, 0, gains);
-#endif
+  void *m = own->memory;
+  int failed =
+      SPH_ERK(SetUserData)(m, it) || ERKStepSetTableNum(m, sph_integrator_table_erk(it->row)) ||
+      repair(m, it->row) || SPH_ERK(WFtolerances)(m, weigh) ||
+      SPH_ERK(SetInterpolantType)(m, ARK_INTERP_HERMITE) || SPH_ERK(SetInterpolantDegree)(m, 3);
+  if (failed || !it->adaptive) return failed;
+  own->controller = (sph_sundials_controller){.step = control, .ctx = it};
+  return sph_sundials_control(m, own->context, &own->controller) ||
+         SPH_ERK(SetStabilityFn)(m, stable, it) || SPH_ERK(SetCFLFraction)(m, 0.5) ||
+         SPH_ERK(SetSafetyFactor)(m, 0.9) || SPH_ERK(SetMaxGrowth)(m, 5) ||
+         SPH_ERK(SetMaxFirstGrowth)(m, 10) || SPH_ERK(SetMinReduction)(m, 0.1) ||
+         SPH_ERK(SetFixedStepBounds)(m, 1, 1) || SPH_ERK(SetMaxEFailGrowth)(m, 0.3) ||
+         SPH_ERK(SetSmallNumEFails)(m, 2) || SPH_ERK(SetMaxErrTestFails)(m, 12);
 }
 
-static int set_adaptive(sph_stepper *s, memory *m)
+static int create(sph_integrator *it, SUNContext context)
 {
-  int bad = SPH_ERK(WFtolerances)(m->arkode, weights);
-  bad |= set_controller(s, m);
-  bad |= SPH_ERK(SetSafetyFactor)(m->arkode, 0.9);
-  bad |= SPH_ERK(SetErrorBias)(m->arkode, 1.5);
-  bad |= SPH_ERK(SetMaxGrowth)(m->arkode, 5);
-  bad |= SPH_ERK(SetMaxFirstGrowth)(m->arkode, 5);
-  bad |= SPH_ERK(SetMinReduction)(m->arkode, 0.1);
-  bad |= SPH_ERK(SetMaxEFailGrowth)(m->arkode, 0.3);
-  bad |= SPH_ERK(SetSmallNumEFails)(m->arkode, 2);
-  bad |= SPH_ERK(SetMaxErrTestFails)(m->arkode, 20);
-  bad |= SPH_ERK(SetFixedStepBounds)(m->arkode, 1, 1);
-  bad |= SPH_ERK(SetCFLFraction)(m->arkode, FRACTION);
-  bad |= SPH_ERK(SetStabilityFn)(m->arkode, stability, s);
-  return bad;
+  erk *own = it->own = SPH_NEW(erk, 1, "a Runge-Kutta integrator", it->problem.error);
+  if (!own) return SPH_ERR_MEMORY;
+  own->context = context;
+  own->fresh = 1;
+  own->memory = ERKStepCreate(rhs, it->time, it->y, context);
+  if (!own->memory) return SPH_ERR_MEMORY;
+  own->listener = (sph_sundials_listener){.listen = listen, .ctx = own};
+  own->listening = !sph_sundials_listen(own->memory, context, &own->listener);
+  return own->listening && !configure(it, own) ? SPH_OK : SPH_ERR_MEMORY;
 }
 
-static void free_memory(sph_stepper *s)
+static void release(sph_integrator *it)
 {
-  memory *m = s->memory;
-  if (!m) return;
-#if SPH_SUNDIALS_NUMBER >= 70100
-  if (m->arkode) ARKodeFree(&m->arkode);
-#else
-  if (m->arkode) ERKStepFree(&m->arkode);
-#endif
-#if SPH_SUNDIALS_NUMBER >= 60700
-  if (m->controller) SUNAdaptController_Destroy(m->controller);
-#endif
-  if (m->table) ARKodeButcherTable_Free(m->table);
-  sph_memory_free(m);
-  s->memory = NULL;
+  erk *own = it->own;
+  if (!own) return;
+  if (own->memory) SPH_ERK(Free)(&own->memory);
+  sph_sundials_control_free(&own->controller);
+  if (own->listening) sph_sundials_deaf(own->context);
+  sph_memory_free(own);
 }
 
-static int adaptive(const sph_stepper *s) { return s->def->tolerance > 0; }
-
-static int create(sph_stepper *s)
+/* What ARKODE's flag means; an evaluation that failed knows better. */
+static int outcome(sph_integrator *it, int flag)
 {
-  sph_error *error = s->problem->error;
-  memory *m = s->memory = SPH_NEW(memory, 1, "the integrator", error);
-  if (!m) return SPH_ERR_MEMORY;
-  m->table = ARKodeButcherTable_LoadERKByName(s->method->table);
-  m->arkode = m->table ? ERKStepCreate(rhs, s->t, s->y, s->context) : NULL;
-  int bad = !m->arkode;
-  if (!bad) bad |= quiet(s, m->arkode) | SPH_ERK(SetUserData)(m->arkode, s);
-  if (!bad) bad |= ERKStepSetTable(m->arkode, m->table);
-  if (!bad) bad |= SPH_ERK(SetInterpolantType)(m->arkode, ARK_INTERP_HERMITE);
-  if (!bad) bad |= SPH_ERK(SetInterpolantDegree)(m->arkode, 3);
-  if (!bad) bad |= SPH_ERK(SetMaxNumSteps)(m->arkode, -1);
-  if (!bad) bad |= work_around(s, m->arkode);
-  if (!bad && adaptive(s)) bad |= set_adaptive(s, m);
-  if (bad)
-    return sph_error_set(error, SPH_ERR_MEMORY, "ARKODE could not be set up with %s: %s",
-                         s->method->name, m->message[0] ? m->message : "out of memory");
-  s->next = 0;
-  return SPH_OK;
+  const erk *own = it->own;
+  if (flag >= 0) return SPH_OK;
+  if (it->rhs_status) return it->rhs_status;
+  int status = flag == ARK_MEM_FAIL ? SPH_ERR_MEMORY : SPH_ERR_STEP;
+  return sph_integrator_fail(it, status, own->text[0] ? own->text : "SUNDIALS failed");
 }
 
-/* Sets what ARKODE needs to know for this one step. */
-static int prepare(sph_stepper *s, double cap, double t_stop)
+static int restart(sph_integrator *it)
 {
-  memory *m = s->memory;
-  int bad = 0;
-  if (!adaptive(s)) {
-    double h = s->t + cap * (1 + 1e-10) >= t_stop ? t_stop - s->t : cap;
-    bad |= SPH_ERK(SetFixedStep)(m->arkode, h);
-  } else if (s->next > 0)
-    bad |= SPH_ERK(SetInitStep)(m->arkode, fmin(s->next, t_stop - s->t));
-  s->next = 0;
-  if (t_stop < INFINITY) bad |= SPH_ERK(SetStopTime)(m->arkode, t_stop);
-  return bad;
+  erk *own = it->own;
+  own->fresh = 1;
+  own->resume = 0;
+  it->rhs_status = 0;
+  return outcome(it, SPH_ERK(Reset)(own->memory, it->time, it->y));
 }
 
-static int step(sph_stepper *s, double cap, double t_stop)
+/* The problem's limits need rates at (time, y); `before` is free at that moment. */
+static int start(sph_integrator *it)
 {
-  memory *m = s->memory;
-  double cap_now = m->cap > 0 ? m->cap : cap; /* ARKODE chose this step's size under this cap */
-  m->message[0] = 0;
-  s->stage_status = 0;
-  if (prepare(s, cap, t_stop))
-    return sph_error_set(s->problem->error, SPH_ERR_STEP, "ARKODE: %s", m->message);
-  sunrealtype t = s->t, h = 0;
-  double before = s->t;
-  int flag =
-      SPH_ERK(Evolve)(m->arkode, t_stop < INFINITY ? t_stop : s->t + 1e30, s->y, &t, ARK_ONE_STEP);
-  if (flag < 0 && s->stage_status > 0)
-    return SPH_RETRY; /* also explicit methods take it for fatal */
-  if (flag < 0)
-    return sph_error_set(s->problem->error, SPH_ERR_STEP, "ARKODE failed at t = %g s (%d): %s",
-                         before, flag, m->message);
-  long rejected = 0;
-  SPH_ERK(GetNumErrTestFails)(m->arkode, &rejected);
-  s->stats->rejected += rejected - m->rejected;
-  m->rejected = rejected;
-  SPH_ERK(GetLastStep)(m->arkode, &h);
-  s->t_previous = before;
-  s->t = flag == ARK_TSTOP_RETURN ? t_stop : t;
-  s->error_bound = adaptive(s) && h < cap_now * (1 - 1e-9);
-  return SPH_OK;
+  erk *own = it->own;
+  int status = it->problem.limits ? sph_integrator_rhs(it, it->time, it->y, it->before) : SPH_OK;
+  if (!status && own->used) status = restart(it);
+  return status;
 }
 
-static int interpolate(sph_stepper *s, double t, N_Vector at)
+/* The step that ARKODE will try, and what it needs for it. */
+static int prepare(sph_integrator *it, const sph_attempt *a, double *h)
 {
-  memory *m = s->memory;
-  int flag = SPH_ERK(GetDky)(m->arkode, t, 0, at);
-  if (flag)
-    return sph_error_set(s->problem->error, SPH_ERR_STEP, "no dense output at t = %g s in [%g, %g]",
-                         t, s->t_previous, s->t);
-  return SPH_OK;
+  erk *own = it->own;
+  *h = a->h;
+  if (!it->adaptive) return SPH_ERK(SetFixedStep)(own->memory, a->h);
+  if (own->resume > 0) {
+    *h = fmin(*h, own->resume);
+    int status = restart(it);
+    if (status) return status;
+  }
+  if (own->fresh) return SPH_ERK(SetInitStep)(own->memory, *h < INFINITY ? *h : 0);
+  return SPH_ERK(GetCurrentStep)(own->memory, h);
 }
 
-static int reset(sph_stepper *s)
+static int attempt(sph_integrator *it, sph_attempt *a, double t_stop)
 {
-  memory *m = s->memory;
-  int flag = SPH_ERK(Reset)(m->arkode, s->t, s->y);
-  long rejected = 0;
-  SPH_ERK(GetNumErrTestFails)(m->arkode, &rejected);
-  m->rejected = rejected;
-  m->cap = 0;
-  if (flag)
-    return sph_error_set(s->problem->error, SPH_ERR_STEP, "ARKODE could not be reset (%d)", flag);
-  return SPH_OK;
+  erk *own = it->own;
+  double t = it->time, left = t_stop - it->time, h = 0;
+  own->text[0] = 0;
+  it->rhs_status = 0;
+  int flag = prepare(it, a, &h);
+  if (flag >= 0) flag = SPH_ERK(SetStopTime)(own->memory, t_stop);
+  if (flag >= 0) flag = SPH_ERK(Evolve)(own->memory, t_stop, it->y, &t, ARK_ONE_STEP);
+  if (flag < 0) {
+    a->h = fmin(h, left);
+    return outcome(it, flag);
+  }
+  own->used = 1;
+  own->fresh = 0;
+  a->t = flag == ARK_TSTOP_RETURN ? t_stop : t;
+  a->h = a->t - it->time;
+  if (!it->adaptive) return SPH_OK;
+  SPH_ERK(GetNumErrTestFails)(own->memory, &it->stats.rejected);
+  if (a->h < a->limit * (1 - CLOSE))
+    a->bound = flag == ARK_TSTOP_RETURN ? SPH_BOUND_STOP : SPH_BOUND_ERROR;
+  if (a->bound == SPH_BOUND_STOP && a->h < 0.2 * it->stats.dt_last) own->resume = it->stats.dt_last;
+  return a->bound != SPH_BOUND_STOP && a->h < it->def.dt_min
+             ? sph_integrator_fail(it, SPH_ERR_STEP, "error control asks for less than dt_min")
+             : SPH_OK;
 }
 
-const sph_scheme sph_integrator_erk = {create, step, interpolate, reset, free_memory};
+static int interpolate(sph_integrator *it, double t, N_Vector at)
+{
+  erk *own = it->own;
+  it->rhs_status = 0;
+  return outcome(it, SPH_ERK(GetDky)(own->memory, t, 0, at));
+}
+
+const sph_stepper sph_integrator_erk = {create, release, start, attempt, restart, interpolate};

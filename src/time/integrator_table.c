@@ -1,157 +1,113 @@
-/* One table of integrators: our own schemes, and every explicit Butcher table of ARKODE.
- *
- * S, the stability limit dt <= S h/(c + |v|), was measured on a decaying Taylor-Green flow with delta-SPH for the rows
- * with a number.  Tables without one get an estimate: the largest |z| on the ray z = |z| (-0.05 + i) of weakly damped sound waves
- * for which |R(z)| <= 1, scaled so that Bogacki-Shampine's is its measured 2.14, times 0.8 for safety. */
 #include "integrator_table.h"
 
-#include <complex.h>
-#include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "stepper.h"
+#include "stability.h"
 
-static const char DEFAULT[] = "erk:bogacki-shampine-4-2-3";
+/* The staggered leapfrog and the velocity Verlet scheme are one scheme in two notations: they have one
+ * stepper (integrator_leapfrog.c). */
+static const sph_integrator_info own[] = {
+    {"leapfrog", 2, 1, 0, 0.72},
+    {"verlet", 2, 1, 0, 0.72},
+};
+enum { OWN = sizeof own / sizeof *own };
 
 static const struct {
   const char *name;
-  double stability; /* 0: estimated */
-} rows[] = {
-    {"leapfrog", 0.72},
-    {"verlet", 0.72},
-    {"erk:forward-euler-1-1", 0},
-    {"erk:heun-euler-2-1-2", 1.33},
-    {"erk:ralston-euler-2-1-2", 0},
-    {"erk:explicit-midpoint-euler-2-1-2", 0},
-    {"erk:knoth-wolke-3-3", 0},
-    {"erk:shu-osher-3-2-3", 2.14},
-    {"erk:bogacki-shampine-4-2-3", 2.14},
-    {"erk:ark324l2sa-erk-4-2-3", 0},
-    {"erk:zonneveld-5-3-4", 2.72},
-    {"erk:sofroniou-spaletta-5-3-4", 2.72},
-    {"erk:sayfy-aburub-6-3-4", 0},
-    {"erk:ark436l2sa-erk-6-3-4", 0},
-    {"erk:ark437l2sa-erk-7-3-4", 0},
-    {"erk:cash-karp-6-4-5", 3.19},
-    {"erk:fehlberg-6-4-5", 0},
-    {"erk:dormand-prince-7-4-5", 2.94},
-    {"erk:tsitouras-7-4-5", 3.02},
-    {"erk:ark548l2sa-erk-8-4-5", 0},
-    {"erk:ark548l2sab-erk-8-4-5", 0},
-    {"erk:verner-8-5-6", 3.45},
-    {"erk:verner-9-5-6", 0},
-    {"erk:verner-10-6-7", 0},
-    {"erk:verner-13-7-8", 0},
-    {"erk:fehlberg-13-7-8", 0},
-    {"erk:verner-16-8-9", 0},
+  double stability;
+} erk[] = {
+#define X(name, stability) {"erk:" name, stability},
+#include "integrator_table.def"
+#undef X
 };
-enum { ROWS = sizeof rows / sizeof *rows };
 
-/* "erk:cash-karp-6-4-5" is ARKODE_CASH_KARP_6_4_5; one table has a small letter in its name. */
-static void table_name(const char *name, char *table, size_t size)
+/* Those that this SUNDIALS has. */
+static int rows(void)
 {
-  snprintf(table, size, "ARKODE_%s", name + strlen("erk:"));
-  for (char *c = table; *c; c++) *c = *c == '-' ? '_' : (char)toupper((unsigned char)*c);
-  char *b = strstr(table, "L2SAB_ERK");
-  if (b) b[4] = 'b';
+  int listed = sizeof erk / sizeof *erk, built = ARKODE_MAX_ERK_NUM + 1;
+  return OWN + (listed < built ? listed : built);
 }
 
-/* |R(z)| of the table's stability function, by one step of y' = z y. */
-static double amplification(ARKodeButcherTable B, double complex z)
+const char *sph_integrator_table_name(int k)
 {
-  double complex k[64], y = 1;
-  for (int i = 0; i < B->stages && i < 64; i++) {
-    double complex stage = 1;
-    for (int j = 0; j < i; j++) stage += z * B->A[i][j] * k[j];
-    k[i] = stage;
-    y += z * B->b[i] * k[i];
-  }
-  return cabs(y);
+  if (k < 0 || k >= rows()) return NULL;
+  return k < OWN ? own[k].name : erk[k - OWN].name;
 }
 
-static double reach(ARKodeButcherTable B)
+ARKODE_ERKTableID sph_integrator_table_erk(int k)
 {
-  const double step = 0.01;
-  double r = step;
-  while (r < 20 && amplification(B, r * (-0.05 + I)) <= 1) r += step;
-  return r - step;
+  return k < OWN ? ARKODE_ERK_NONE : (ARKODE_ERKTableID)(ARKODE_MIN_ERK_NUM + k - OWN);
 }
 
-static double estimate(ARKodeButcherTable B)
+int sph_integrator_table_fsal(const struct ARKodeButcherTableMem *table)
 {
-  const double bogacki_shampine = 1.86, measured = 2.14;
-  return 0.8 * measured * reach(B) / bogacki_shampine;
+  int last = table->stages - 1;
+  for (int j = 0; j <= last; j++)
+    if (table->A[last][j] != table->b[j]) return 0;
+  return fabs(table->c[last] - 1) < 1e-14;
 }
 
-static int first_same_as_last(ARKodeButcherTable B)
+int sph_integrator_table_info(int k, sph_integrator_info *info)
 {
-  int last = B->stages - 1;
-  if (B->c[last] != 1) return 0;
-  for (int j = 0; j < B->stages; j++)
-    if (B->A[last][j] != B->b[j]) return 0;
-  return 1;
-}
-
-static int load(const char *name, double stability, sph_method *method)
-{
-  table_name(name, method->table, sizeof method->table);
-  ARKodeButcherTable B = ARKodeButcherTable_LoadERKByName(method->table);
-  if (!B) return 0;
-  method->scheme = &sph_integrator_erk;
-  method->order = B->q;
-  method->stages = B->stages;
-  method->fsal = first_same_as_last(B);
-  method->evaluations = B->stages - method->fsal;
-  method->error_control = B->d && B->p > 0;
-  method->stability = stability > 0 ? stability : estimate(B);
-  ARKodeButcherTable_Free(B);
-  return 1;
-}
-
-static int find(const char *name, double stability, sph_method *method)
-{
-  *method = (sph_method){.order = 2, .stages = 1, .evaluations = 1, .stability = stability};
-  snprintf(method->name, sizeof method->name, "%s", name);
-  if (!strncmp(name, "erk:", 4)) return strlen(name) < 50 && load(name, stability, method);
-  method->scheme = !strcmp(name, "leapfrog") ? &sph_integrator_leapfrog : &sph_integrator_verlet;
-  return 1;
-}
-
-int sph_integrator_table_find(const char *name, sph_method *method, sph_error *error)
-{
-  if (!name) name = DEFAULT;
-  char known[700] = "";
-  for (int k = 0; k < ROWS; k++) {
-    if (!find(rows[k].name, rows[k].stability, method)) continue;
-    if (!strcmp(name, rows[k].name)) return SPH_OK;
-    size_t used = strlen(known);
-    snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", rows[k].name);
-  }
-  if (!strncmp(name, "erk:", 4) && find(name, 0, method))
-    return SPH_OK; /* a newer ARKODE's table */
-  return sph_error_set(error, SPH_ERR_ARGUMENT, "integrator \"%.60s\"; known with SUNDIALS %s: %s",
-                       name, SUNDIALS_VERSION, known);
-}
-
-int sph_integrator_info_get(int k, sph_integrator_info *info)
-{
-  sph_method method;
-  for (int row = 0; row < ROWS; row++) {
-    if (!find(rows[row].name, rows[row].stability, &method) || k-- > 0) continue;
-    *info = (sph_integrator_info){rows[row].name, method.order, method.evaluations,
-                                  method.error_control, method.stability};
+  if (!sph_integrator_table_name(k)) return 0;
+  if (k < OWN) {
+    *info = own[k];
     return 1;
   }
-  return 0;
+  ARKodeButcherTable table = ARKodeButcherTable_LoadERK(sph_integrator_table_erk(k));
+  if (!table) return 0;
+  *info = (sph_integrator_info){.name = erk[k - OWN].name,
+                                .order = table->q,
+                                .stages = table->stages - sph_integrator_table_fsal(table),
+                                .error_control = table->d != NULL && table->p > 0,
+                                .stability = erk[k - OWN].stability};
+  if (info->stability == 0)
+    info->stability = sph_stability(table->stages, (const double *const *)table->A, table->b);
+  ARKodeButcherTable_Free(table);
+  return 1;
 }
 
-const char *sph_bound_name(int bound)
+/* Letters to insert, delete or replace (Levenshtein 1966). */
+static int distance(const char *a, const char *b)
 {
-  static const char *const names[SPH_BOUND_COUNT] = {
-      [SPH_BOUND_CFL] = "cfl",     [SPH_BOUND_VISCOUS] = "viscous",
-      [SPH_BOUND_FORCE] = "force", [SPH_BOUND_CONDUCTION] = "conduction",
-      [SPH_BOUND_ERROR] = "error", [SPH_BOUND_STOP] = "stop",
-      [SPH_BOUND_USER] = "user",   [SPH_BOUND_RETRY] = "retry"};
-  return bound >= 0 && bound < SPH_BOUND_COUNT ? names[bound] : "";
+  enum { LONGEST = 64 };
+  int row[LONGEST + 1], n = (int)strnlen(b, LONGEST);
+  for (int j = 0; j <= n; j++) row[j] = j;
+  for (int i = 0; a[i] && i < LONGEST; i++) {
+    int diagonal = row[0];
+    row[0] = i + 1;
+    for (int j = 0; j < n; j++) {
+      int change = diagonal + (a[i] != b[j]), above = row[j + 1];
+      int step = (above < row[j] ? above : row[j]) + 1;
+      row[j + 1] = change < step ? change : step;
+      diagonal = above;
+    }
+  }
+  return row[n];
+}
+
+static int unknown(const char *name, sph_error *error)
+{
+  char known[800] = "";
+  const char *nearest = own[0].name;
+  for (int k = 0; k < rows(); k++) {
+    const char *row = sph_integrator_table_name(k);
+    size_t used = strlen(known);
+    snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", row);
+    if (distance(name, row) < distance(name, nearest)) nearest = row;
+  }
+  sph_error_set(error, SPH_ERR_ARGUMENT,
+                "integrator \"%.60s\" is unknown; the nearest is \"%s\", known are %s", name,
+                nearest, known);
+  return -1;
+}
+
+int sph_integrator_table_find(const char *name, sph_error *error)
+{
+  if (!name) name = "erk:bogacki-shampine-4-2-3";
+  for (int k = 0; k < rows(); k++)
+    if (!strcmp(name, sph_integrator_table_name(k))) return k;
+  return unknown(name, error);
 }

@@ -1,21 +1,18 @@
-/* integrator_table.h -- the table of integrators. */
+/* integrator_table.h -- which integrators there are. */
 #ifndef SPH_INTEGRATOR_TABLE_H
 #define SPH_INTEGRATOR_TABLE_H
 #include "sphode/integrator.h"
 #include "sundials.h"
 
-struct sph_scheme;
-
-typedef struct sph_method {
-  char name[64];                  /* "erk:bogacki-shampine-4-2-3" */
-  char table[64];                 /* ARKODE's name of the Butcher table; "" for our own schemes */
-  int order, stages, evaluations; /* right-hand sides a step: first same as last counts once */
-  int fsal, error_control;
-  double stability; /* S: dt <= S h/(c + |v|) */
-  const struct sph_scheme *scheme;
-} sph_method;
-
-/* The method of that name (NULL: the default); unknown: recorded with the known ones. */
-int sph_integrator_table_find(const char *name, sph_method *method, sph_error *error);
+/* Row k = 0, 1, ... of the table; NULL behind the last.  The first rows are our own schemes. */
+const char *sph_integrator_table_name(int k);
+/* Row of that name (NULL: the default), or -1: recorded, with the known names and the nearest. */
+int sph_integrator_table_find(const char *name, sph_error *error);
+/* ARKODE's number of row k; ARKODE_ERK_NONE for our own. */
+ARKODE_ERKTableID sph_integrator_table_erk(int k);
+/* What row k is; 0 if it is no row, or without memory for its Butcher table. */
+int sph_integrator_table_info(int k, sph_integrator_info *info);
+/* Is the last stage of that table the next step's first? */
+int sph_integrator_table_fsal(const struct ARKodeButcherTableMem *table);
 
 #endif

@@ -1,16 +1,16 @@
 /* problem.h -- what a stepper needs to know of what it steps: time/ knows no particles.
  *
- * All callbacks return a status: 0, > 0 (SPH_RETRY: try a smaller step), < 0 failed (text in *error). */
+ * All callbacks return a status: 0, > 0 (SPH_RETRY: a smaller step, please), < 0 failed (see error). */
 #ifndef SPH_PROBLEM_H
 #define SPH_PROBLEM_H
 #include "sphode/base.h"
 #include "sphode/integrator.h"
 #include "sundials.h"
 
+/* Longest steps by cause, enum sph_bound [s]; INFINITY where there is none.  dt[SPH_BOUND_CFL] is
+ * min h/(c + |v|), to which the stepper applies cfl and S; VISCOUS, FORCE, CONDUCTION, USER are final. */
 typedef struct sph_step_limit {
-  double dt
-      [SPH_BOUND_COUNT]; /* [s] limits by cause for S = 1 schemes with cfl applied by the stepper: dt[CFL] is min h/(c + |v|);
-                               * VISCOUS, FORCE, CONDUCTION, USER are final; INFINITY where there is none */
+  double dt[SPH_BOUND_COUNT];
 } sph_step_limit;
 
 typedef struct sph_problem {

@@ -1,0 +1,59 @@
+/* integrator_data.h -- what the loop over steps and the steppers share. */
+#ifndef SPH_INTEGRATOR_DATA_H
+#define SPH_INTEGRATOR_DATA_H
+#include "integrator.h"
+#include "sundials.h"
+
+/* One try of a step. */
+typedef struct sph_attempt {
+  double
+      limit; /* longest step by all limits, before the stop time shortens it [s]; may be INFINITY */
+  double h;  /* to be tried, then what was tried [s] */
+  double t;  /* where it ends: set by the stepper */
+  int bound; /* what binds it: enum sph_bound */
+} sph_attempt;
+
+/* How one kind of scheme steps.  All return a status. */
+typedef struct sph_stepper {
+  int (*create)(sph_integrator *it, SUNContext context);
+  void (*free)(sph_integrator *it); /* also after a failed create */
+  /* y at it->time is new: one evaluation there. */
+  int (*start)(sph_integrator *it);
+  /* From y = it->before at it->time towards t_stop; y then holds the state at attempt->t. */
+  int (*attempt)(sph_integrator *it, sph_attempt *attempt, double t_stop);
+  /* The attempt does not count; y is it->before again. */
+  int (*reject)(sph_integrator *it);
+  int (*interpolate)(sph_integrator *it, double t, N_Vector at);
+} sph_stepper;
+
+struct sph_integrator {
+  sph_problem problem;
+  sph_integrator_def def; /* defaults filled in; method: the table's name */
+  sph_integrator_info info;
+  int row;      /* of the table */
+  int adaptive; /* the step size follows the error estimate */
+  const sph_stepper *stepper;
+  void *own;             /* the stepper's */
+  N_Vector y;            /* borrowed */
+  N_Vector before;       /* y at the start of the last step */
+  double time, previous; /* [s] */
+  int started;           /* evaluated at (time, y) since the last reset */
+  int stepped;           /* there is a last step to interpolate in */
+  double limit;          /* of the next step by the problem's limits [s] */
+  double cap;            /* of the next step after a retry, else INFINITY [s] */
+  int cause;             /* of limit: enum sph_bound */
+  int rhs_status;        /* of the last evaluation */
+  int bound;
+  sph_step_stats stats;
+};
+
+/* f(t, y), counted. */
+int sph_integrator_rhs(sph_integrator *it, double t, N_Vector y, N_Vector ydot);
+/* Asks the problem for its limits and sets it->limit and it->cause. */
+int sph_integrator_limit(sph_integrator *it, double t, N_Vector y);
+/* Records a failure of the step that starts at it->time. */
+int sph_integrator_fail(sph_integrator *it, int status, const char *why);
+
+extern const sph_stepper sph_integrator_leapfrog, sph_integrator_erk;
+
+#endif
