@@ -1,6 +1,6 @@
 /* Every operation runs over chunks: at most CHUNK entries of one segment, never its padding.  The
- * chunks are the same for any number of threads, and so are the sums: one partial sum a chunk, added in
- * order. */
+ * chunks are the same for any number of threads, and so are the sums: one partial sum a chunk,
+ * added in order. */
 #include "nvector.h"
 
 #include <math.h>
@@ -167,7 +167,8 @@ static double part_inverse(const operands *o, long from, long to)
   return zero;
 }
 
-/* Constraints y: +-2 strictly, +-1 weakly of that sign, 0 none; z marks the x that break theirs. */
+/* Constraints y: +-2 strictly, +-1 weakly of that sign, 0 none; z marks the x that break theirs.
+ * */
 static double part_constraint(const operands *o, long from, long to)
 {
   double broken = 0;

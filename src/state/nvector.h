@@ -8,8 +8,8 @@
 #include "sphode/base.h"
 #include "sundials.h"
 
-/* A vector of that layout (borrowed: outlives all clones; a segment's n may change between steps),
- * entries zero.  NULL on failure (recorded). */
+/* A vector of that layout (borrowed: outlives all clones; a segment's n may change between
+ * steps), entries zero.  NULL on failure (recorded). */
 N_Vector sph_nvector_create(const sph_layout *layout, int threads, SUNContext context,
                             sph_error *error);
 double *sph_nvector_data(N_Vector v);

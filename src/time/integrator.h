@@ -11,8 +11,9 @@ typedef struct sph_integrator sph_integrator;
 /* Is the definition right?  Else recorded: unknown method (with the known ones), bad value. */
 int sph_integrator_check(const sph_integrator_def *def, sph_error *error);
 
-/* The definition is checked and copied.  y: the start, cloned from, borrowed until free; after each step
- * it holds the state at sph_integrator_time.  context: outlives the integrator.  NULL: recorded. */
+/* The definition is checked and copied.  y: the start, cloned from, borrowed until free; after
+ * each step it holds the state at sph_integrator_time.  context: outlives the integrator.  NULL:
+ * recorded. */
 sph_integrator *sph_integrator_create(const sph_integrator_def *def, const sph_problem *problem,
                                       double t, N_Vector y, SUNContext context, sph_error *error);
 void sph_integrator_free(sph_integrator *integrator);

@@ -1,5 +1,6 @@
-/* ARKODE's explicit Runge-Kutta schemes, one step a call.  Nothing is left to the defaults of ARKODE,
- * which differ between versions: table, controller, growth, interpolation are set here. */
+/* ARKODE's explicit Runge-Kutta schemes, one step a call.  Nothing is left to the defaults of
+ * ARKODE, which differ between versions: table, controller, growth, interpolation are set here.
+ * */
 #include <math.h>
 #include <stdio.h>
 
@@ -49,8 +50,8 @@ static int stable(N_Vector y, sunrealtype t, sunrealtype *h, void *data)
   return status;
 }
 
-/* Integral controller: error ~ h^(p + 1) with an embedded scheme of order p = order - 1.  Without memory,
- * so that a restart changes nothing. */
+/* Integral controller: error ~ h^(p + 1) with an embedded scheme of order p = order - 1. 
+ * Without memory, so that a restart changes nothing. */
 static double control(double h, double error, void *data)
 {
   const sph_integrator *it = data;
@@ -71,8 +72,8 @@ static int nothing(sunrealtype t, N_Vector y, void *data)
   return 0;
 }
 
-/* SUNDIALS up to 6.6.2 takes any last stage at c = 1 for the rate at the end, and loses order; a hook
- * after the step makes it evaluate anew. */
+/* SUNDIALS up to 6.6.2 takes any last stage at c = 1 for the rate at the end, and loses order; a
+ * hook after the step makes it evaluate anew. */
 static int repair(void *memory, int row)
 {
   ARKodeButcherTable table = ARKodeButcherTable_LoadERK(sph_integrator_table_erk(row));

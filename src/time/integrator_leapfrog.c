@@ -3,8 +3,8 @@
  *   predict   v* = v0 + h a0,  q* = q0 + h R0                 (q: density, energy, ...)
  *   evaluate  f1 = f(t1, r1, v*, q*)
  *   kick      v1 = v0 + h/2 (a0 + a1),  q1 = q0 + h/2 (R0 + R1)
- * v0 + h/2 a0 is the half-step velocity of the staggered leapfrog.  Second order also for forces of v
- * and q, because these are predicted at t1; with half-step values it would be first order.
+ * v0 + h/2 a0 is the half-step velocity of the staggered leapfrog.  Second order also for forces
+ * of v and q, because these are predicted at t1; with half-step values it would be first order.
  * Symplectic for forces of positions alone and constant h (Hairer, Lubich & Wanner 2003). */
 #include <math.h>
 

@@ -6,8 +6,8 @@
 
 #include "stability.h"
 
-/* The staggered leapfrog and the velocity Verlet scheme are one scheme in two notations: they have one
- * stepper (integrator_leapfrog.c). */
+/* The staggered leapfrog and the velocity Verlet scheme are one scheme in two notations: they
+ * have one stepper (integrator_leapfrog.c). */
 static const sph_integrator_info own[] = {
     {"leapfrog", 2, 1, 0, 0.72},
     {"verlet", 2, 1, 0, 0.72},

@@ -1,6 +1,7 @@
 /* problem.h -- what a stepper needs to know of what it steps: time/ knows no particles.
  *
- * All callbacks return a status: 0, > 0 (SPH_RETRY: a smaller step, please), < 0 failed (see error). */
+ * All callbacks return a status: 0, > 0 (SPH_RETRY: a smaller step, please), < 0 failed (see
+ * error). */
 #ifndef SPH_PROBLEM_H
 #define SPH_PROBLEM_H
 #include "sphode/base.h"
@@ -8,7 +9,8 @@
 #include "sundials.h"
 
 /* Longest steps by cause, enum sph_bound [s]; INFINITY where there is none.  dt[SPH_BOUND_CFL] is
- * min h/(c + |v|), to which the stepper applies cfl and S; VISCOUS, FORCE, CONDUCTION, USER are final. */
+ * min h/(c + |v|), to which the stepper applies cfl and S; VISCOUS, FORCE, CONDUCTION, USER are
+ * final. */
 typedef struct sph_step_limit {
   double dt[SPH_BOUND_COUNT];
 } sph_step_limit;

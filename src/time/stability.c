@@ -1,10 +1,10 @@
 /* A damped wave y' = lambda y, lambda = omega (-zeta +- i sqrt(1 - zeta^2)), stays bounded if
  *   |R(z)| <= 1,  z = lambda dt,  R(z) = 1 + sum_k z^k b^T A^(k-1) 1.
- * Weakly compressible flow is made of sound waves of all frequencies, damped by viscosity and density
- * diffusion.  The estimate is the smallest limit for damping ratios zeta from 0.1 to 1, scaled by 0.99:
- * then it is 2.14 for Bogacki-Shampine, as measured on particles, and 3 to 22 % below what was measured
- * for Heun, Zonneveld, Cash-Karp, Dormand-Prince and Verner.  Without damping half of the schemes would
- * have no stable step at all, and yet they run. */
+ * Weakly compressible flow is made of sound waves of all frequencies, damped by viscosity and
+ * density diffusion.  The estimate is the smallest limit for damping ratios zeta from 0.1 to 1,
+ * scaled by 0.99: then it is 2.14 for Bogacki-Shampine, as measured on particles, and 3 to 22 %
+ * below what was measured for Heun, Zonneveld, Cash-Karp, Dormand-Prince and Verner.  Without
+ * damping half of the schemes would have no stable step at all, and yet they run. */
 #include "stability.h"
 
 #include <complex.h>
