@@ -1,0 +1,307 @@
+/* Slow and plain on purpose: one function per equation, all pairs, no lists, no tables. */
+#include "oracle.h"
+
+#include <math.h>
+
+static const real pi = 3.14159265358979323846264338327950288L;
+
+/* ---- kernels:  W = sigma/h^d w(q),  F = W'/r = sigma/h^(d+2) f(q),  q = r/h < 2 ---- */
+
+static real sigma(const oracle *o)
+{
+  if (o->cubic) return o->dim == 1 ? 2 / 3.0L : o->dim == 2 ? 10 / (7 * pi) : 1 / pi;
+  return o->dim == 1 ? 5 / 8.0L : o->dim == 2 ? 7 / (4 * pi) : 21 / (16 * pi);
+}
+
+real oracle_w(const oracle *o, real r)
+{
+  real q = r / o->h, t = 1 - q / 2, w;
+  if (q >= 2) return 0;
+  if (o->cubic)
+    w = q < 1 ? 1 - 3 * q * q / 2 + 3 * q * q * q / 4 : powl(2 - q, 3) / 4;
+  else
+    w = o->dim == 1 ? powl(t, 3) * (1 + 3 * q / 2) : powl(t, 4) * (1 + 2 * q);
+  return sigma(o) / powl(o->h, o->dim) * w;
+}
+
+real oracle_f(const oracle *o, real r)
+{
+  real q = r / o->h, t = 1 - q / 2, f;
+  if (q >= 2) return 0;
+  if (o->cubic)
+    f = q < 1 ? -3 + 9 * q / 4 : -3 * (2 - q) * (2 - q) / (4 * q);
+  else
+    f = o->dim == 1 ? -3 * t * t : -5 * t * t * t;
+  return sigma(o) / powl(o->h, o->dim + 2) * f;
+}
+
+/* ---- a pair: r_ij = x_i - x_j of the nearest image, grad W = r_ij F ---- */
+
+typedef struct pair {
+  real d[3], r;      /* r_ij, |r_ij| */
+  real f, grad_w[3]; /* F, grad_i W */
+  real grad;         /* |grad W| */
+} pair;
+
+static real dot(const real a[3], const real b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+static real norm(const real a[3]) { return sqrtl(dot(a, a)); }
+static void difference(const real a[3], const real b[3], real out[3])
+{
+  for (int k = 0; k < 3; k++) out[k] = a[k] - b[k];
+}
+
+/* 0: too far. */
+static int near(const oracle *o, long i, long j, pair *ij)
+{
+  difference(o->particle[i].x, o->particle[j].x, ij->d);
+  for (int k = 0; k < o->dim; k++)
+    if (o->periodic[k]) ij->d[k] -= o->length[k] * roundl(ij->d[k] / o->length[k]);
+  ij->r = norm(ij->d);
+  if (ij->r >= 2 * o->h) return 0;
+  ij->f = oracle_f(o, ij->r);
+  for (int k = 0; k < 3; k++) ij->grad_w[k] = ij->d[k] * ij->f;
+  ij->grad = ij->r * fabsl(ij->f);
+  return 1;
+}
+
+static int is_wall(const oracle *o, long i) { return o->group[o->particle[i].group].wall; }
+static const oracle_eos *eos_of(const oracle *o, long i)
+{
+  return &o->group[o->particle[i].group].eos;
+}
+
+/* ---- equations of state ---- */
+
+static void pressure_of(const oracle_eos *eos, oracle_particle *i)
+{
+  real b = eos->rho0 * eos->c0 * eos->c0 / eos->gamma, s = i->rho / eos->rho0;
+  switch (eos->kind) {
+  case ORACLE_TAIT:
+    i->p = b * (powl(s, eos->gamma) - 1) + eos->p_background;
+    i->c = eos->c0 * powl(s, (eos->gamma - 1) / 2);
+    i->p_size = b * (powl(s, eos->gamma) + 1) + fabsl(eos->p_background);
+    break;
+  case ORACLE_LINEAR:
+    i->p = eos->c0 * eos->c0 * (i->rho - eos->rho0) + eos->p_background;
+    i->c = eos->c0;
+    i->p_size = eos->c0 * eos->c0 * (i->rho + eos->rho0) + fabsl(eos->p_background);
+    break;
+  case ORACLE_IDEAL_GAS:
+    i->p = (eos->gamma - 1) * i->rho * i->u;
+    i->c = sqrtl(eos->gamma * (eos->gamma - 1) * i->u);
+    i->p_size = i->p;
+    break;
+  }
+}
+
+static real density_of(const oracle_eos *eos, real p, real u)
+{
+  real b = eos->rho0 * eos->c0 * eos->c0 / eos->gamma;
+  switch (eos->kind) {
+  case ORACLE_TAIT: return eos->rho0 * powl(1 + (p - eos->p_background) / b, 1 / eos->gamma);
+  case ORACLE_LINEAR: return eos->rho0 + (p - eos->p_background) / (eos->c0 * eos->c0);
+  case ORACLE_IDEAL_GAS: return p / ((eos->gamma - 1) * u);
+  }
+  return 0;
+}
+
+static void materials(oracle *o)
+{
+  for (long i = 0; i < o->n; i++) {
+    oracle_particle *it = &o->particle[i];
+    if (is_wall(o, i)) continue;
+    pressure_of(eos_of(o, i), it);
+    for (int k = 0; k < 3; k++) it->v_viscous[k] = it->v[k];
+  }
+}
+
+/* ---- walls (Adami, Hu & Adams 2012):
+ *   p_w = [sum p_f W + (g - a_w) . sum rho_f r_wf W] / sum W,   rho_w = rho(p_w),
+ *   v_w = 2 v - <v_f> for viscous terms that see it ---- */
+
+static void wall(oracle *o, long w)
+{
+  oracle_particle *it = &o->particle[w];
+  const oracle_group *group = &o->group[it->group];
+  real down[3], sum_w = 0, sum_p = 0, size = 0, sum_v[3] = {0};
+  pair wf;
+  difference(o->g, group->acceleration, down);
+  for (long f = 0; f < o->n; f++) {
+    const oracle_particle *fluid = &o->particle[f];
+    if (is_wall(o, f) || !near(o, w, f, &wf)) continue;
+    real weight = oracle_w(o, wf.r);
+    sum_w += weight;
+    sum_p += weight * (fluid->p + fluid->rho * dot(down, wf.d));
+    size += weight * (fluid->p_size + fluid->rho * norm(down) * wf.r);
+    for (int k = 0; k < 3; k++) sum_v[k] += weight * fluid->v[k];
+  }
+  it->p = sum_w > 0 ? sum_p / sum_w : 0;
+  it->p_size = sum_w > 0 ? size / sum_w : 0;
+  if (!group->tension && it->p < 0) it->p = 0;
+  it->rho = density_of(&group->eos, it->p, it->u);
+  real p = it->p, p_size = it->p_size;
+  pressure_of(&group->eos, it); /* for c */
+  it->p = p, it->p_size = p_size;
+  for (int k = 0; k < 3; k++) {
+    it->v[k] = group->velocity[k];
+    it->v_viscous[k] = 2 * it->v[k] - (sum_w > 0 ? sum_v[k] / sum_w : 0);
+  }
+}
+
+/* ---- gradients:  <grad rho>^L_i = M^-1 sum V_j (rho_j - rho_i) grad W,
+ *   M^ab = - sum V_j r^a r^b F;   0 where the smallest eigenvalue of M is below 0.4 ---- */
+
+/* Eigenvalues of a symmetric a[3][3] to a's diagonal, vectors to the columns of q (Jacobi rotations). */
+static void eigen(real a[3][3], real q[3][3])
+{
+  for (int r = 0; r < 3; r++)
+    for (int c = 0; c < 3; c++) q[r][c] = r == c;
+  for (int sweep = 0; sweep < 60; sweep++) {
+    int r = sweep % 3 == 2, c = sweep % 3 == 0 ? 1 : 2; /* (0,1), (0,2), (1,2) */
+    if (a[r][c] == 0) continue;
+    real theta = atan2l(2 * a[r][c], a[c][c] - a[r][r]) / 2, cs = cosl(theta), sn = sinl(theta);
+    for (int k = 0; k < 3; k++) {
+      real x = a[k][r], y = a[k][c];
+      a[k][r] = cs * x - sn * y, a[k][c] = sn * x + cs * y;
+    }
+    for (int k = 0; k < 3; k++) {
+      real x = a[r][k], y = a[c][k];
+      a[r][k] = cs * x - sn * y, a[c][k] = sn * x + cs * y;
+      x = q[k][r], y = q[k][c];
+      q[k][r] = cs * x - sn * y, q[k][c] = sn * x + cs * y;
+    }
+  }
+}
+
+static void gradient(oracle *o, long i)
+{
+  oracle_particle *it = &o->particle[i];
+  real m[3][3] = {{0}}, q[3][3], b[3] = {0}, size = 0, smallest = INFINITY;
+  pair ij;
+  for (long j = 0; j < o->n; j++) {
+    const oracle_particle *other = &o->particle[j];
+    if (j == i || !near(o, i, j, &ij)) continue;
+    real volume = other->m / other->rho;
+    for (int r = 0; r < 3; r++) {
+      b[r] += volume * (other->rho - it->rho) * ij.grad_w[r];
+      for (int c = 0; c < 3; c++) m[r][c] -= volume * ij.d[r] * ij.d[c] * ij.f;
+    }
+    size += volume * (other->rho + it->rho) * ij.grad;
+  }
+  eigen(m, q);
+  for (int e = 0; e < 3; e++)
+    if (e < o->dim && m[e][e] < smallest) smallest = m[e][e];
+  for (int k = 0; k < 3; k++) it->gradient[k] = 0;
+  it->gradient_size = 0;
+  if (smallest < 0.4L) return;
+  it->gradient_size = size / smallest;
+  for (int e = 0; e < o->dim; e++) {
+    real along = (q[0][e] * b[0] + q[1][e] * b[1] + q[2][e] * b[2]) / m[e][e];
+    for (int k = 0; k < 3; k++) it->gradient[k] += along * q[k][e];
+  }
+}
+
+/* ---- pair terms: what j adds to i ---- */
+
+/* C1:  drho = sum m_j v_ij.grad W,          a = - sum m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W,
+ *      du = p_i/rho_i^2 sum m_j v_ij.grad W
+ * C2:  drho = rho_i sum V_j v_ij.grad W,    a = - sum m_j (p_i + p_j)/(rho_i rho_j) grad W,
+ *      du = p_i/rho_i sum V_j v_ij.grad W */
+static void compression(const oracle *o, oracle_particle *i, const oracle_particle *j,
+                        const pair *ij)
+{
+  real v[3], factor;
+  difference(i->v, j->v, v);
+  real rate = dot(v, ij->grad_w), size = (norm(i->v) + norm(j->v)) * ij->grad;
+  if (o->continuity != ORACLE_NONE) {
+    factor = o->continuity == ORACLE_C1 ? j->m : i->rho * j->m / j->rho;
+    i->drho += factor * rate, i->drho_size += factor * size;
+  }
+  if (o->pressure == ORACLE_NONE) return;
+  int s = o->pressure == ORACLE_C1;
+  factor =
+      s ? i->p / (i->rho * i->rho) + j->p / (j->rho * j->rho) : (i->p + j->p) / (i->rho * j->rho);
+  for (int k = 0; k < 3; k++) i->a[k] -= j->m * factor * ij->grad_w[k];
+  factor = s ? i->p_size / (i->rho * i->rho) + j->p_size / (j->rho * j->rho)
+             : (i->p_size + j->p_size) / (i->rho * j->rho);
+  i->a_size += j->m * factor * ij->grad;
+  factor = s ? j->m / (i->rho * i->rho) : j->m / (i->rho * j->rho);
+  i->du += i->p * factor * rate, i->du_size += i->p_size * factor * size;
+}
+
+/* Monaghan (1992):  a = - sum m_j Pi grad W,  du = 1/2 sum m_j Pi v_ij.grad W,
+ * Pi = (-alpha c mu + beta mu^2)/rho where v.r < 0,  mu = h v.r/(r^2 + 0.01 h^2). */
+static void viscosity(const oracle *o, oracle_particle *i, const oracle_particle *j, const pair *ij)
+{
+  real v[3], h = o->h, rho = (i->rho + j->rho) / 2, c = (i->c + j->c) / 2;
+  difference(i->v_viscous, j->v_viscous, v);
+  if (dot(v, ij->d) >= 0) return;
+  real scale = h / (ij->r * ij->r + 0.01L * h * h), mu = scale * dot(v, ij->d);
+  real speed = norm(i->v_viscous) + norm(j->v_viscous), mu_size = scale * speed * ij->r;
+  real Pi = (-o->alpha * c * mu + o->beta * mu * mu) / rho;
+  real Pi_size = (o->alpha * c * mu_size + o->beta * mu_size * mu_size) / rho;
+  for (int k = 0; k < 3; k++) i->a[k] -= j->m * Pi * ij->grad_w[k];
+  i->a_size += j->m * Pi_size * ij->grad;
+  i->du += j->m * Pi * dot(v, ij->grad_w) / 2;
+  i->du_size += j->m * Pi_size * speed * ij->grad / 2;
+}
+
+/* Price (2008):  du = sum m_j/rho alpha_u v_sig (u_i - u_j) r F,  v_sig = sqrt(|p_i - p_j|/rho). */
+static void conductivity(const oracle *o, oracle_particle *i, const oracle_particle *j,
+                         const pair *ij)
+{
+  real rho = (i->rho + j->rho) / 2, jump = fabsl(i->p - j->p);
+  if (jump == 0) return;
+  real factor = j->m / rho * o->conductivity * sqrtl(jump / rho) * ij->r * ij->f;
+  i->du += factor * (i->u - j->u);
+  i->du_size += fabsl(factor) * (i->u + j->u) * (1 + (i->p_size + j->p_size) / jump);
+}
+
+/* drho = delta h c0 sum V_j psi.grad W,
+ * Molteni & Colagrossi (2009): psi = 2 (rho_j - rho_i) r_ji/r^2;
+ * Antuono et al. (2010): less <grad rho>_i + <grad rho>_j; of a wall, that of i. */
+static void diffusion(const oracle *o, const oracle_eos *eos, int j_is_wall, oracle_particle *i,
+                      const oracle_particle *j, const pair *ij)
+{
+  real factor = o->delta * o->h * eos->c0 * j->m / j->rho, psi[3];
+  real size = 2 * (i->rho + j->rho) / ij->r;
+  for (int k = 0; k < 3; k++) psi[k] = -2 * (j->rho - i->rho) * ij->d[k] / (ij->r * ij->r);
+  if (o->diffusion == ORACLE_ANTUONO) {
+    const oracle_particle *other = j_is_wall ? i : j;
+    for (int k = 0; k < 3; k++) psi[k] -= i->gradient[k] + other->gradient[k];
+    size += i->gradient_size + other->gradient_size;
+  }
+  i->drho += factor * dot(psi, ij->grad_w), i->drho_size += factor * size * ij->grad;
+}
+
+static void rates(oracle *o, long i)
+{
+  oracle_particle *it = &o->particle[i];
+  pair ij;
+  it->drho = it->du = it->drho_size = it->du_size = 0;
+  for (int k = 0; k < 3; k++) it->a[k] = o->g[k] - o->omega * o->omega * it->x[k];
+  it->a_size = norm(o->g) + o->omega * o->omega * norm(it->x);
+  for (long j = 0; j < o->n; j++) {
+    const oracle_particle *other = &o->particle[j];
+    int wall_j = is_wall(o, j);
+    if (j == i || !near(o, i, j, &ij)) continue;
+    compression(o, it, other, &ij);
+    if (!wall_j || o->group[other->group].no_slip) viscosity(o, it, other, &ij);
+    if (o->conductivity > 0 && !wall_j) conductivity(o, it, other, &ij);
+    if (o->diffusion != ORACLE_OFF) diffusion(o, eos_of(o, i), wall_j, it, other, &ij);
+  }
+}
+
+void oracle_evaluate(oracle *o)
+{
+  materials(o);
+  for (long i = 0; i < o->n; i++)
+    if (is_wall(o, i)) wall(o, i);
+  for (long i = 0; i < o->n; i++)
+    if (!is_wall(o, i)) gradient(o, i);
+  for (long i = 0; i < o->n; i++)
+    if (!is_wall(o, i)) rates(o, i);
+}

@@ -1,0 +1,69 @@
+/* oracle.h -- the right-hand side a second time: brute force over all pairs in long double, written from the
+ * equations alone (docs/theory.md), sharing no line with the library.
+ *
+ * Beside every result stands its size: the sum of the magnitudes of all that was added to it, in which what
+ * cancels counts in full.  A double precision evaluation differs by rounding times size. */
+#ifndef ORACLE_H
+#define ORACLE_H
+
+typedef long double real;
+
+enum oracle_eos_kind { ORACLE_TAIT, ORACLE_LINEAR, ORACLE_IDEAL_GAS };
+
+typedef struct oracle_eos {
+  enum oracle_eos_kind kind;
+  real rho0, c0, gamma, p_background; /* [kg/m^3], [m/s], 1, [Pa] */
+} oracle_eos;
+
+typedef struct oracle_group {
+  int wall;             /* 1: wall, 0: fluid */
+  oracle_eos eos;       /* of a wall: that of the fluid it holds */
+  int no_slip;          /* of a wall: viscous terms see it */
+  int tension;          /* of a wall: p < 0 is allowed */
+  real velocity[3];     /* of a wall [m/s] */
+  real acceleration[3]; /* of a wall [m/s^2] */
+} oracle_group;
+
+typedef struct oracle_particle {
+  int group;
+  /* Given: */
+  real x[3], v[3]; /* [m], [m/s]; a wall's v is set from its group */
+  real m, rho, u;  /* [kg], [kg/m^3], [J/kg]; a wall's rho is a result */
+  /* Results: */
+  real p, c;         /* [Pa], [m/s] */
+  real v_viscous[3]; /* what viscous terms see [m/s] */
+  real gradient[3];  /* <grad rho>^L [kg/m^4] */
+  real a[3], drho, du;
+  real p_size, gradient_size, a_size, drho_size, du_size;
+} oracle_particle;
+
+enum { ORACLE_GROUPS = 4 };
+enum oracle_row { ORACLE_NONE, ORACLE_C1, ORACLE_C2 };            /* density and its partners */
+enum oracle_delta { ORACLE_OFF, ORACLE_MOLTENI, ORACLE_ANTUONO }; /* density diffusion */
+
+typedef struct oracle {
+  int dim, cubic; /* cubic: cubic spline, else Wendland C2 */
+  real h;         /* [m] */
+  int periodic[3];
+  real length[3]; /* [m] */
+  enum oracle_row continuity, pressure;
+  real alpha, beta;  /* artificial viscosity */
+  real conductivity; /* alpha_u */
+  enum oracle_delta diffusion;
+  real delta;
+  real g[3];  /* [m/s^2] */
+  real omega; /* [1/s] */
+  int groups;
+  oracle_group group[ORACLE_GROUPS];
+  long n;
+  oracle_particle *particle; /* [n] */
+} oracle;
+
+/* Fills in all results. */
+void oracle_evaluate(oracle *o);
+
+/* W(r, h) and F = (dW/dr)/r of the oracle's kernel. */
+real oracle_w(const oracle *o, real r);
+real oracle_f(const oracle *o, real r);
+
+#endif

@@ -1,0 +1,298 @@
+#include "scene.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+static const double rho0_of_all = 1000; /* [kg/m^3] */
+
+double scene_random(unsigned long *state)
+{
+  uint64_t z = *state += 0x9e3779b97f4a7c15u; /* splitmix64 */
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+static double between(unsigned long *state, double lo, double hi)
+{
+  return lo + (hi - lo) * scene_random(state);
+}
+
+/* ---- the cloud ---- */
+
+/* Closest to any of the first i particles, nearest images. */
+static double distance(const oracle *o, long i, const double x[3])
+{
+  real least = INFINITY;
+  for (long j = 0; j < i; j++) {
+    real r2 = 0;
+    for (int k = 0; k < o->dim; k++) {
+      real d = x[k] - o->particle[j].x[k];
+      if (o->periodic[k]) d -= o->length[k] * roundl(d / o->length[k]);
+      r2 += d * d;
+    }
+    if (r2 < least) least = r2;
+  }
+  return (double)sqrtl(least);
+}
+
+/* Particle i in or near cell number `cell`. */
+static void place(scene *s, const scene_def *def, long i, const int cell[3], unsigned long *state)
+{
+  double x[3] = {0};
+  do
+    for (int k = 0; k < def->dim; k++) {
+      int top = k == def->dim - 1; /* walls keep their side */
+      x[k] = s->dx * (cell[k] + 0.5 + between(state, -0.2, 0.2));
+      if (def->random)
+        x[k] = s->dx * (top ? cell[k] + scene_random(state) : scene_random(state) * def->n);
+    }
+  while (def->random && distance(&s->o, i, x) < 0.3 * s->dx);
+  for (int k = 0; k < 3; k++) s->o.particle[i].x[k] = x[k];
+}
+
+/* 0: first fluid, 1: second, 2: wall below, 3: wall above. */
+static int group_of(const scene_def *def, const int cell[3])
+{
+  int up = cell[def->dim - 1];
+  if (def->walls > 0 && up < 3) return 2;
+  if (def->walls > 1 && up >= def->n - 3) return 3;
+  return def->fluids > 1 && cell[0] >= def->n / 2;
+}
+
+static void fill(scene *s, const scene_def *def, oracle_particle *it, unsigned long *state)
+{
+  double rho0 = rho0_of_all, volume = pow(s->dx, def->dim);
+  if (def->outside && scene_random(state) < 0.2)
+    for (int k = 0; k < def->dim; k++)
+      if (def->periodic[k])
+        it->x[k] = (double)(it->x[k] + s->o.length[k] * floor(between(state, -2, 3)));
+  it->m = rho0 * volume;
+  it->rho = rho0;
+  it->u = 0;
+  if (s->o.group[it->group].wall) return;
+  for (int k = 0; k < def->dim; k++) it->v[k] = between(state, -1, 1);
+  it->m = (double)it->m * between(state, 0.5, 1.5);
+  it->rho = rho0 * (def->thermal ? between(state, 0.5, 1.5) : between(state, 0.97, 1.06));
+  if (def->thermal) it->u = between(state, 5, 25);
+}
+
+static void groups(scene *s, const scene_def *def)
+{
+  oracle_eos tait = {ORACLE_TAIT, 1000, 10, 7, 0}, linear = {ORACLE_LINEAR, 1000, 12, 1, 500};
+  oracle_eos gas = {ORACLE_IDEAL_GAS, 0, 0, 1.4, 0};
+
+  s->o.groups = ORACLE_GROUPS;
+  for (int g = 0; g < ORACLE_GROUPS; g++) {
+    oracle_group *group = &s->o.group[g];
+    *group = (oracle_group){.wall = g >= 2, .no_slip = def->no_slip, .tension = def->tension};
+    group->eos = def->thermal ? gas : g == 1 ? linear : tait;
+    for (int k = 0; k < def->dim && g == 3; k++) {
+      group->velocity[k] = 0.25 * (k + 1);
+      group->acceleration[k] = 1.5 - k;
+    }
+  }
+}
+
+void scene_make(scene *s, const scene_def *def)
+{
+  unsigned long state = def->seed;
+  long cells = 1, i = 0;
+  *s = (scene){.dx = 0.1, .h_over_dx = def->cubic ? 1.3 : 1.5, .thermal = def->thermal};
+  s->o.dim = def->dim, s->o.cubic = def->cubic;
+  s->o.h = s->h_over_dx * s->dx;
+  for (int k = 0; k < def->dim; k++) {
+    cells *= def->n;
+    s->o.periodic[k] = def->periodic[k];
+    s->o.length[k] = def->n * s->dx;
+  }
+  groups(s, def);
+  s->o.n = cells;
+  s->o.particle = calloc((size_t)cells, sizeof *s->o.particle);
+  assert_non_null(s->o.particle);
+  for (int g = 0; g < ORACLE_GROUPS; g++)
+    for (long c = 0; c < cells; c++) {
+      int cell[3] = {(int)(c % def->n), (int)(c / def->n % def->n), (int)(c / def->n / def->n)};
+      if (group_of(def, cell) != g) continue;
+      s->o.particle[i].group = g;
+      place(s, def, i++, cell, &state);
+    }
+  for (i = 0; i < cells; i++) fill(s, def, &s->o.particle[i], &state);
+}
+
+void scene_free(scene *s) { free(s->o.particle); }
+
+/* ---- the library's side ---- */
+
+static const char *const names[ORACLE_GROUPS] = {"water", "oil", "floor", "lid"};
+
+static void move(void *ctx, double t, double displacement[3], double velocity[3],
+                 double acceleration[3])
+{
+  const oracle_group *group = ctx;
+  (void)t;
+  for (int k = 0; k < 3; k++) {
+    displacement[k] = 0;
+    velocity[k] = (double)group->velocity[k];
+    acceleration[k] = (double)group->acceleration[k];
+  }
+}
+
+static sph_eos library_eos(const oracle_eos *eos)
+{
+  sph_eos it = eos->kind == ORACLE_IDEAL_GAS ? sph_eos_ideal_gas((double)eos->gamma)
+               : eos->kind == ORACLE_TAIT
+                   ? sph_eos_tait((double)eos->rho0, (double)eos->c0, (double)eos->gamma)
+                   : sph_eos_linear((double)eos->rho0, (double)eos->c0, -INFINITY);
+  if (eos->kind != ORACLE_IDEAL_GAS) it.p_background = (double)eos->p_background;
+  return it;
+}
+
+static long first_of(const oracle *o, int g)
+{
+  long i = 0;
+  while (i < o->n && o->particle[i].group < g) i++;
+  return i;
+}
+
+static void add_group(scene *s, sph_sim *sim, int g)
+{
+  oracle *o = &s->o;
+  long first = first_of(o, g), n = first_of(o, g + 1) - first;
+  if (n == 0) return;
+  double *x[3];
+  for (int k = 0; k < 3; k++) {
+    x[k] = malloc((size_t)n * sizeof(double));
+    for (long i = 0; i < n; i++) x[k][i] = (double)o->particle[first + i].x[k];
+  }
+  sph_group *group = sph_group_create(sim, names[g], o->group[g].wall ? "wall" : "fluid");
+  sph_group_add_points(group, n, (const double *const *)x, rho0_of_all);
+  for (int k = 0; k < 3; k++) free(x[k]);
+  if (!o->group[g].wall) {
+    sph_group_set_eos(group, library_eos(&o->group[g].eos));
+    return;
+  }
+  sph_boundary boundary = o->group[g].no_slip ? sph_boundary_adami_no_slip() : sph_boundary_adami();
+  boundary.tension = o->group[g].tension;
+  boundary.motion = g == 3 ? move : NULL;
+  boundary.ctx = &o->group[g];
+  sph_group_set_boundary(group, boundary);
+}
+
+static void add_terms(const oracle *o, sph_sim *sim)
+{
+  static const char *const continuity[] = {NULL, "c1", "c2"}, *const pressure[] = {NULL, "s", "c2"};
+  if (o->continuity) sph_sim_add_term(sim, sph_term_continuity_form(continuity[o->continuity]));
+  if (o->pressure) sph_sim_add_term(sim, sph_term_pressure_form(pressure[o->pressure]));
+  if (o->alpha > 0 || o->beta > 0)
+    sph_sim_add_term(sim, sph_term_viscosity_artificial((double)o->alpha, (double)o->beta));
+  if (o->conductivity > 0)
+    sph_sim_add_term(sim, sph_term_conductivity_artificial((double)o->conductivity));
+  if (o->diffusion)
+    sph_sim_add_term(sim, sph_term_delta(o->diffusion == ORACLE_MOLTENI ? "molteni" : "antuono",
+                                         (double)o->delta));
+  double g[3] = {(double)o->g[0], (double)o->g[1], (double)o->g[2]};
+  if (g[0] != 0 || g[1] != 0 || g[2] != 0) sph_sim_add_term(sim, sph_term_gravity(g));
+  if (o->omega > 0) sph_sim_add_term(sim, sph_term_harmonic((double)o->omega));
+}
+
+void scene_write(const scene *s, sph_sim *sim)
+{
+  const oracle *o = &s->o;
+  for (int g = 0; g < ORACLE_GROUPS; g++) {
+    sph_group *group = sph_sim_group(sim, names[g]);
+    long first = first_of(o, g), n = first_of(o, g + 1) - first;
+    if (n == 0 || o->group[g].wall) continue;
+    for (int k = 0; k < o->dim; k++) {
+      double *x = sph_group_write(group, "position", k), *v = sph_group_write(group, "velocity", k);
+      for (long i = 0; x && v && i < n; i++) {
+        x[i] = (double)o->particle[first + i].x[k];
+        v[i] = (double)o->particle[first + i].v[k];
+      }
+    }
+    double *m = sph_group_write(group, "mass", 0), *rho = sph_group_write(group, "density", 0);
+    double *u = s->thermal ? sph_group_write(group, "energy", 0) : NULL;
+    for (long i = 0; m && rho && i < n; i++) {
+      m[i] = (double)o->particle[first + i].m;
+      rho[i] = (double)o->particle[first + i].rho;
+      if (u) u[i] = (double)o->particle[first + i].u;
+    }
+  }
+}
+
+sph_sim *scene_sim(scene *s, scene_options options)
+{
+  const oracle *o = &s->o;
+  sph_sim_def def = {.dim = o->dim,
+                     .dx = s->dx,
+                     .kernel = o->cubic ? "cubic-spline" : "wendland-c2",
+                     .h_over_dx = s->h_over_dx,
+                     .threads = options.threads,
+                     .skin = options.skin,
+                     .neighbors = options.neighbors,
+                     .isa = options.isa};
+  for (int k = 0; k < o->dim; k++) {
+    def.periodic[k] = o->periodic[k];
+    def.length[k] = o->periodic[k] ? (double)o->length[k] : 0;
+  }
+  sph_sim *sim = sph_sim_create(&def);
+  for (int g = 0; g < ORACLE_GROUPS; g++) add_group(s, sim, g);
+  add_terms(o, sim);
+  scene_write(s, sim);
+  assert_string_equal(sph_sim_error(sim), "");
+  return sim;
+}
+
+/* ---- what it found ---- */
+
+static void copy(double *to, long first, long n, const double *from)
+{
+  assert_non_null(from);
+  memcpy(to + first, from, (size_t)n * sizeof(double));
+}
+
+scene_rates scene_evaluate(const scene *s, sph_sim *sim)
+{
+  const oracle *o = &s->o;
+  scene_rates r = {.n = o->n};
+  double **all[] = {&r.a[0], &r.a[1], &r.a[2], &r.drho, &r.du, &r.p, &r.c, &r.rho};
+  for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+    *all[k] = calloc((size_t)o->n, sizeof(double));
+  int status = sph_sim_evaluate(sim);
+  if (status != SPH_OK) fail_msg("status %d: %s", status, sph_sim_error(sim));
+  for (int g = 0; g < ORACLE_GROUPS; g++) {
+    sph_group *group = sph_sim_group(sim, names[g]);
+    long first = first_of(o, g), n = first_of(o, g + 1) - first;
+    if (n == 0) continue;
+    copy(r.p, first, n, sph_group_read(group, "pressure", 0));
+    copy(r.rho, first, n, sph_group_read(group, "density", 0));
+    if (o->group[g].wall) continue;
+    copy(r.c, first, n, sph_group_read(group, "sound_speed", 0));
+    copy(r.drho, first, n, sph_group_rate(group, "density", 0));
+    for (int k = 0; k < o->dim; k++) copy(r.a[k], first, n, sph_group_rate(group, "velocity", k));
+    if (s->thermal) copy(r.du, first, n, sph_group_rate(group, "energy", 0));
+  }
+  return r;
+}
+
+void scene_rates_free(scene_rates *r)
+{
+  double *all[] = {r->a[0], r->a[1], r->a[2], r->drho, r->du, r->p, r->c, r->rho};
+  for (size_t k = 0; k < sizeof all / sizeof *all; k++) free(all[k]);
+}
+
+int scene_rates_same(const scene_rates *a, const scene_rates *b)
+{
+  size_t bytes = (size_t)a->n * sizeof(double);
+  return a->n == b->n && !memcmp(a->a[0], b->a[0], bytes) && !memcmp(a->a[1], b->a[1], bytes) &&
+         !memcmp(a->a[2], b->a[2], bytes) && !memcmp(a->drho, b->drho, bytes) &&
+         !memcmp(a->du, b->du, bytes) && !memcmp(a->p, b->p, bytes) &&
+         !memcmp(a->rho, b->rho, bytes);
+}

@@ -1,0 +1,242 @@
+/* The right-hand side against an independent brute force in long double, on random states; and what it must
+ * not depend on to the last bit: threads, skin, the way neighbours are found. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "cpu.h"
+#include "scene.h"
+
+/* Rounding: worst seen is told at the end of each test. */
+static const double tolerance = 1e-14;
+static double worst;
+
+static void same(const char *what, const scene_def *def, long i, double found, real expected,
+                 real size)
+{
+  double error = size > 0 ? (double)(fabsl(found - expected) / size) : fabs(found);
+  if (error > worst) worst = error;
+  if (error <= tolerance) return; /* NaN fails */
+  fail_msg("%s of particle %ld (seed %lu, %dD): %.17g, oracle %.17Lg, error %g of size %Lg", what,
+           i, def->seed, def->dim, found, expected, error, size);
+}
+
+static void compare(const scene *s, const scene_def *def, const scene_rates *r)
+{
+  for (long i = 0; i < s->o.n; i++) {
+    const oracle_particle *it = &s->o.particle[i];
+    int wall = s->o.group[it->group].wall;
+    same(wall ? "wall p" : "p", def, i, r->p[i], it->p, it->p_size);
+    same(wall ? "wall rho" : "rho", def, i, r->rho[i], it->rho, it->rho);
+    if (wall) continue;
+    same("c", def, i, r->c[i], it->c, it->c);
+    for (int k = 0; k < def->dim; k++) same("a", def, i, r->a[k][i], it->a[k], it->a_size);
+    same("drho", def, i, r->drho[i], it->drho, it->drho_size);
+    if (s->thermal) same("du", def, i, r->du[i], it->du, it->du_size);
+  }
+}
+
+/* Terms number `mix`, rows matched. */
+static void choose_terms(scene *s, int mix)
+{
+  oracle *o = &s->o;
+  o->continuity = o->pressure = mix % 2 ? ORACLE_C1 : ORACLE_C2;
+  if (mix % 3) o->alpha = mix % 3 == 1 ? 0.1 : 1, o->beta = mix % 3 == 1 ? 0 : 2;
+  if (s->thermal && mix % 2) o->conductivity = 0.7;
+  if (!s->thermal) o->diffusion = (enum oracle_delta)(mix % 3), o->delta = 0.15;
+  if (mix % 5 == 4) o->diffusion = ORACLE_OFF;
+  for (int k = 0; k < o->dim && mix % 4; k++) o->g[k] = k ? -9.81 * k : 2.5;
+  if (mix % 4 == 1 && !o->periodic[0] && !o->periodic[1] && !o->periodic[2]) o->omega = 3;
+}
+
+/* Scene number k of a kind; every combination of choices turns up over the numbers. */
+static scene_def choose_scene(int dim, int k, int walls, int thermal)
+{
+  scene_def def = {.dim = dim, .cubic = k % 2, .walls = walls, .thermal = thermal};
+  def.n = dim == 1 ? 40 : dim == 2 ? 14 : walls ? 9 : 8;
+  def.seed = (unsigned long)(1000 * dim + 100 * walls + 50 * thermal + k);
+  unsigned long state = def.seed;
+  for (int d = 0; d < dim; d++) def.periodic[d] = k > 1 && scene_random(&state) < 0.5;
+  if (walls) def.periodic[dim - 1] = 0;
+  def.random = scene_random(&state) < 0.5;
+  def.fluids = 1 + (scene_random(&state) < 0.5);
+  def.outside = scene_random(&state) < 0.5;
+  def.no_slip = k / 2 % 2;
+  def.tension = k / 4 % 2;
+  return def;
+}
+
+static void check(const scene_def *def, int mix)
+{
+  static const char *const isa[] = {NULL, "reference", "generic", NULL}, *const method[] = {
+                                                                             NULL, NULL, NULL,
+                                                                             "brute-force"};
+  scene s;
+  scene_make(&s, def);
+  choose_terms(&s, mix);
+  oracle_evaluate(&s.o);
+  for (int k = 0; k < 4; k++) {
+    sph_sim *sim = scene_sim(&s, (scene_options){.isa = isa[k], .neighbors = method[k]});
+    assert_true(sph_sim_h(sim) == (double)s.o.h);
+    scene_rates rates = scene_evaluate(&s, sim);
+    compare(&s, def, &rates);
+    scene_rates_free(&rates);
+    sph_sim_free(sim);
+  }
+  scene_free(&s);
+}
+
+static void all_scenes(int walls, int thermal)
+{
+  worst = 0;
+  for (int dim = 1; dim <= 3; dim++)
+    for (int k = 0; k < 12; k++) {
+      scene_def def = choose_scene(dim, k, walls, thermal);
+      check(&def, k);
+    }
+  print_message("# largest error: %.2g of size\n", worst);
+}
+
+static void liquids(void **state) { (void)state, all_scenes(0, 0); }
+static void gases(void **state) { (void)state, all_scenes(0, 1); }
+static void liquids_over_a_wall(void **state) { (void)state, all_scenes(1, 0); }
+static void liquids_between_walls(void **state) { (void)state, all_scenes(2, 0); }
+
+/* Every instruction set that this processor runs. */
+static void all_instruction_sets(void **state)
+{
+  (void)state;
+  scene_def def = {
+      .dim = 2, .n = 14, .walls = 2, .fluids = 2, .no_slip = 1, .seed = 5, .periodic = {1}};
+  scene s;
+  scene_make(&s, &def);
+  choose_terms(&s, 2);
+  oracle_evaluate(&s.o);
+  int tried = 0;
+  for (int isa = 0; isa < SPH_ISA_COUNT; isa++) {
+    if (sph_cpu_isa(sph_cpu_isa_name(isa), NULL) != isa) continue;
+    sph_sim *sim = scene_sim(&s, (scene_options){.isa = sph_cpu_isa_name(isa)});
+    scene_rates rates = scene_evaluate(&s, sim);
+    compare(&s, &def, &rates);
+    scene_rates_free(&rates);
+    sph_sim_free(sim);
+    tried++;
+  }
+  assert_in_range(tried, 2, SPH_ISA_COUNT);
+  scene_free(&s);
+}
+
+/* The lists of the start, still used after small moves, find every pair: forces are of the new places. */
+static void moved_particles(void **state)
+{
+  (void)state;
+  scene_def def = {.dim = 2, .n = 14, .walls = 1, .fluids = 1, .seed = 77, .periodic = {1}};
+  unsigned long random = 3;
+  scene s;
+  scene_make(&s, &def);
+  choose_terms(&s, 2);
+  sph_sim *sim = scene_sim(&s, (scene_options){.skin = 0.5});
+  for (int move = 0; move < 12; move++) {
+    for (long i = 0; i < s.o.n; i++) {
+      oracle_particle *it = &s.o.particle[i];
+      if (s.o.group[it->group].wall) continue;
+      for (int k = 0; k < 2; k++)
+        it->x[k] = (double)(it->x[k] + 0.02 * s.o.h * (scene_random(&random) - 0.5L));
+    }
+    scene_write(&s, sim);
+    sph_sim_changed(sim);
+    oracle_evaluate(&s.o);
+    scene_rates rates = scene_evaluate(&s, sim);
+    compare(&s, &def, &rates);
+    scene_rates_free(&rates);
+  }
+  sph_sim_free(sim);
+  scene_free(&s);
+}
+
+/* ---- the same bits ---- */
+
+static void large_scene(scene *s, int dim)
+{
+  scene_def def = {
+      .dim = dim, .n = dim == 2 ? 90 : 20, .walls = 2, .fluids = 2, .no_slip = 1, .seed = 9};
+  def.periodic[0] = 1;
+  scene_make(s, &def);
+  choose_terms(s, 2);
+}
+
+static scene_rates rates_of(scene *s, scene_options options)
+{
+  sph_sim *sim = scene_sim(s, options);
+  scene_rates rates = scene_evaluate(s, sim);
+  sph_sim_free(sim);
+  return rates;
+}
+
+static void same_bits(scene *s, const scene_options *options, int n, const char *what)
+{
+  scene_rates first = rates_of(s, options[0]);
+  for (int k = 1; k < n; k++) {
+    scene_rates other = rates_of(s, options[k]);
+    if (!scene_rates_same(&first, &other)) fail_msg("%s: option %d has other bits", what, k);
+    scene_rates_free(&other);
+  }
+  scene_rates_free(&first);
+}
+
+static void any_threads(void **state)
+{
+  (void)state;
+  static const scene_options options[] = {{.threads = 1}, {.threads = 2}, {.threads = 3}};
+  for (int dim = 2; dim <= 3; dim++) {
+    scene s;
+    large_scene(&s, dim);
+    same_bits(&s, options, 3, "threads");
+    scene_free(&s);
+  }
+}
+
+static void any_skin(void **state)
+{
+  (void)state;
+  static const scene_options options[] = {{.skin = 0}, {.skin = -1}, {.skin = 0.05}, {.skin = 0.4}};
+  for (int dim = 2; dim <= 3; dim++) {
+    scene s;
+    large_scene(&s, dim);
+    same_bits(&s, options, 4, "skin");
+    scene_free(&s);
+  }
+}
+
+static void any_search(void **state)
+{
+  (void)state;
+  static const scene_options options[] = {{.neighbors = "blocks"}, {.neighbors = "brute-force"}};
+  scene s;
+  large_scene(&s, 3);
+  same_bits(&s, options, 2, "neighbors");
+  scene_free(&s);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(liquids),
+      cmocka_unit_test(gases),
+      cmocka_unit_test(liquids_over_a_wall),
+      cmocka_unit_test(liquids_between_walls),
+      cmocka_unit_test(all_instruction_sets),
+      cmocka_unit_test(moved_particles),
+      cmocka_unit_test(any_threads),
+      cmocka_unit_test(any_skin),
+      cmocka_unit_test(any_search),
+  };
+  return cmocka_run_group_tests_name("right-hand side", tests, NULL, NULL);
+}
