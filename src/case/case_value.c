@@ -228,7 +228,8 @@ int sph_case_value_evaluate(const char *text, const sph_case_name *names, int n,
   pthread_mutex_lock(&lock);
   status = evaluate(&f, si, &result->value);
   if (!status && !isfinite(result->value))
-    status = problem(&f, 0, "'%.60s' is %g; a finite number belongs here", text, result->value);
+    status = problem(&f, 0, "'%.60s' is %s; a finite number belongs here", text,
+                     isnan(result->value) ? "not a number" : "infinite");
   if (!status) status = dimensions(&f);
   pthread_mutex_unlock(&lock);
   return status;
@@ -285,9 +286,9 @@ static int evaluate_points(formula *f, muParserHandle_t parser, int first, int d
     out[i] = mupEval(parser);
     if (mupError(parser)) return muparser_problem(f, parser);
     if (isfinite(out[i])) continue;
-    return problem(f, 0, "'%.60s' is %g at x = %g m%s%g; it must be finite in the whole group",
-                   f->text, out[i], x[0][i], dim > 1 ? ", y = " : " in dimension ",
-                   dim > 1 ? x[1][i] : 1.0);
+    return problem(f, 0, "'%.60s' is %s at x = %g m%s; it must be finite in the whole group",
+                   f->text, isnan(out[i]) ? "not a number" : "infinite", x[0][i],
+                   dim > 1 ? ", ..." : "");
   }
   return SPH_OK;
 }

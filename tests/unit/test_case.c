@@ -1,0 +1,311 @@
+/* Case files: units against their definitions, expressions, the schema's defaults, and for every kind of broken file the
+ * message that a user reads.  tests/data/broken/x.yml begin with "#: " and the message expected, without its path. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <dirent.h>
+#include <math.h>
+
+#include "case_schema.h"
+#include "case_unit.h"
+#include "case_value.h"
+#include "memory.h"
+#include "sphode.h"
+
+/* ---- units and expressions */
+
+static sph_case_name names[] = {{(char[]){"H"}, 0.6, {0, 1, 0}},
+                                {(char[]){"g"}, 9.81, {0, 1, -2}},
+                                {(char[]){"n"}, 3, {0, 0, 0}}};
+enum { NAMES = sizeof names / sizeof *names };
+
+static void units_have_their_size_and_dimension(void **state)
+{
+  static const struct {
+    const char *text;
+    double value, power[3]; /* SI; kg, m, s */
+  } cases[] = {
+      {"9.81 m/s^2", 9.81, {0, 1, -2}},
+      {"0.5 mm", 0.5e-3, {0, 1, 0}},
+      {"0.01m", 0.01, {0, 1, 0}},
+      {"2 kPa", 2000, {1, -1, -2}},
+      {"1 g/cm^3", 1000, {1, -3, 0}},
+      {"1.125 in", 0.028575, {0, 1, 0}}, /* 25.4 mm by definition */
+      {"1 ft", 0.3048, {0, 1, 0}},
+      {"3 min", 180, {0, 0, 1}},
+      {"2 N m", 2, {1, 2, -2}},
+      {"2 N*m", 2, {1, 2, -2}},
+      {"1 J/kg", 1, {0, 2, -2}},
+      {"1 bar", 1e5, {1, -1, -2}},
+      {"50 Hz", 50, {0, 0, -1}},
+      {"36 km/min", 600, {0, 1, -1}},
+      {"H/40", 0.015, {0, 1, 0}},
+      {"g*2 s", 19.62, {0, 1, -1}},
+      {"10*sqrt(2*g*H)", 34.310348293189911, {0, 1, -1}},
+      {"2 m/g", 0.2038735983690112, {0, 0, 2}}, /* g is the parameter here */
+      {"2 g", 2e-3, {1, 0, 0}},                 /* and the gram here */
+      {"H < 1 m ? 2 Pa : 3 Pa", 2, {1, -1, -2}},
+      {"max(H, 1 m)", 1, {0, 1, 0}},
+      {"H^n", 0.216, {0, 3, 0}},
+      {"pi", 3.14159265358979, {0, 0, 0}},
+      {"1e-3", 1e-3, {0, 0, 0}},
+      {".5", 0.5, {0, 0, 0}},
+  };
+  (void)state;
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    sph_case_value v;
+    if (sph_case_value_evaluate(cases[k].text, names, NAMES, &v))
+      fail_msg("%s: %s", cases[k].text, v.problem);
+    if (!(fabs(v.value - cases[k].value) <= 1e-14 * fabs(cases[k].value)))
+      fail_msg("%s: %.17g, expected %.17g", cases[k].text, v.value, cases[k].value);
+    for (int b = 0; b < SPH_CASE_BASES; b++)
+      if (v.power[b] != cases[k].power[b])
+        fail_msg("%s: power %g of base %d, expected %g", cases[k].text, v.power[b], b,
+                 cases[k].power[b]);
+  }
+}
+
+static void what_cannot_be_is_refused(void **state)
+{
+  static const char *const bad[] = {
+      "1 m + 1 s", "H + g",   "sin(H)", "exp(1 s)",  "1/0",
+      "0/0",       "log(-1)", "1 xyz",  "0.01xyz",   "2 H",
+      "a",         "1,2",     "H = 2",  "(1",        "1 +",
+      "",          " ",       "\"a\"",  "1 m/s^2.5", "1e999",
+      "m",         "H m",     "1..2",   "\xc3\xa9",  "H < 1 s ? 1 m : 1 s + H"};
+  (void)state;
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+    sph_case_value v;
+    if (sph_case_value_evaluate(bad[k], names, NAMES, &v) != SPH_ERR_PARSE)
+      fail_msg("'%s' was taken as %g", bad[k], v.value);
+    assert_true(v.problem[0] != 0);
+  }
+}
+
+static void a_problem_tells_its_column(void **state)
+{
+  sph_case_value v;
+  (void)state;
+  sph_case_value_evaluate("2*H + 3 foo", names, NAMES, &v);
+  assert_int_equal(v.column, 8);
+  sph_case_value_evaluate("20 mm + bar", names, NAMES, &v);
+  assert_int_equal(v.column, 8);
+}
+
+static void fields_are_evaluated_at_each_point(void **state)
+{
+  const double x[] = {-1, 0, 0.5}, y[] = {2, 3, 4};
+  const double *const points[] = {x, y};
+  double out[3];
+  sph_case_value v;
+  (void)state;
+  assert_int_equal(sph_case_value_field("x < 0 ? 1 kPa : y*H*2 Pa/m^2", names, NAMES, 2, 3, points,
+                                        out, &v),
+                   0);
+  assert_true(out[0] == 1000);
+  assert_true(fabs(out[1] - 3.6) < 1e-14 && fabs(out[2] - 4.8) < 1e-14);
+  assert_int_equal(sph_case_value_field("1/x", names, NAMES, 2, 3, points, out, &v), SPH_ERR_PARSE);
+  assert_non_null(strstr(v.problem, "infinite at x = 0 m"));
+  assert_int_equal(sph_case_value_field("z", names, NAMES, 2, 3, points, out, &v), SPH_ERR_PARSE);
+}
+
+/* ---- whole files */
+
+static const char small[] = "dimension: 2\n"
+                            "spacing: 1 cm\n"
+                            "groups:\n"
+                            "  water:\n"
+                            "    kind: fluid\n"
+                            "    density: 1000\n"
+                            "    eos: {tait: {sound_speed: 20 m/s}}\n"
+                            "    shapes: [{box: {lower: [0, 0], upper: [0.1, 20 cm]}}]\n"
+                            "terms: {continuity: , pressure: }\n"
+                            "run: {end: 20 ms}\n";
+
+static void defaults_are_filled_in(void **state)
+{
+  sph_error error = {0};
+  (void)state;
+  sph_case *c = sph_case_read_text("small.yml", small, strlen(small), 0, NULL, &error);
+  if (!c) fail_msg("%s", error.text);
+  assert_string_equal(sph_case_title(c), "");
+  assert_string_equal(sph_case_text(c), small);
+  assert_true(sph_case_end(c) == 20 * 1e-3);
+  assert_string_equal(sph_case_plot_field(c), "velocity");
+  const sph_case_node *tait = sph_case_reader_find(c->root, "groups")->first;
+  tait = sph_case_reader_find(sph_case_reader_find(tait, "eos"), "tait");
+  assert_true(sph_case_reader_number(tait, "gamma", 0) == 7);
+  assert_string_equal(sph_case_reader_find(sph_case_reader_find(c->root, "kernel"), "name")->text,
+                      "wendland-c2");
+  sph_case_free(c);
+}
+
+static void set_replaces_and_adds(void **state)
+{
+  const char *const set[] = {"spacing=2 cm", "kernel.h_over_dx=1.7",
+                             "groups.water.shapes.0.box.upper=[0.2, 0.3]", "title=Two words"};
+  sph_error error = {0};
+  (void)state;
+  sph_case *c = sph_case_read_text("small.yml", small, strlen(small), 4, set, &error);
+  if (!c) fail_msg("%s", error.text);
+  assert_true(sph_case_reader_number(c->root, "spacing", 0) == 0.02);
+  assert_true(sph_case_reader_number(sph_case_reader_find(c->root, "kernel"), "h_over_dx", 0) ==
+              1.7);
+  assert_string_equal(sph_case_title(c), "Two words");
+  assert_true(!strncmp(sph_case_text(c), "# --set spacing=2 cm\n", 21));
+  sph_case_free(c);
+}
+
+static void a_wrong_set_says_so(void **state)
+{
+  static const char *const wrong[][2] = {
+      {"spacing=2 s", "small.yml: --set spacing=2 s: spacing: found s, wanted m"},
+      {"spacing", "--set spacing: wanted key=value, as spacing=1cm"},
+      {"groups.water.shapes.7.box=1",
+       "small.yml: --set groups.water.shapes.7.box=1: there is no '7'"},
+  };
+  (void)state;
+  for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+    sph_error error = {0};
+    assert_null(sph_case_read_text("small.yml", small, strlen(small), 1, &wrong[k][0], &error));
+    assert_int_equal(error.status, SPH_ERR_PARSE);
+    assert_string_equal(error.text, wrong[k][1]);
+  }
+}
+
+static void the_simulation_is_what_the_file_says(void **state)
+{
+  sph_error error = {0};
+  (void)state;
+  sph_case *c = sph_case_read_text("small.yml", small, strlen(small), 0, NULL, &error);
+  sph_sim *sim = c ? sph_case_build(c, 2, &error) : NULL;
+  if (!sim) fail_msg("%s", error.text);
+  const sph_group *water = sph_sim_group(sim, "water");
+  assert_int_equal(sph_group_count(water), 200);
+  assert_int_equal(sph_sim_threads(sim), 2);
+  assert_true(sph_sim_dx(sim) == 0.01);
+  assert_true(sph_group_eos(water)->c0 == 20 && sph_group_eos(water)->rho0 == 1000);
+  sph_sim_free(sim);
+  sph_case_free(c);
+}
+
+/* ---- broken files */
+
+static void check_broken(const char *directory, const char *file)
+{
+  char path[512], *message;
+  sph_error error = {0};
+  size_t size;
+  assert_true(strlen(directory) + strlen(file) + 2 < sizeof path);
+  strcat(strcat(strcpy(path, directory), "/"), file);
+  char *text = sph_case_reader_load(path, &size, &error);
+  assert_non_null(text);
+  message = text + 3; /* "#: " */
+  message[strcspn(message, "\n")] = 0;
+  assert_null(sph_case_read(path, 0, NULL, &error));
+  assert_int_equal(error.status, SPH_ERR_PARSE);
+  assert_true(!strncmp(error.text, path, strlen(path)) && error.text[strlen(path)] == ':');
+  assert_string_equal(error.text + strlen(path) + 1, message);
+  sph_memory_free(text);
+}
+
+static void broken_files_say_what_is_wrong(void **state)
+{
+  const char *root = getenv("SRCDIR");
+  char directory[1024];
+  int n = 0;
+  (void)state;
+  snprintf(directory, sizeof directory, "%s/tests/data/broken", root ? root : ".");
+  DIR *files = opendir(directory);
+  if (!files) fail_msg("cannot open %s", directory);
+  for (struct dirent *f; (f = readdir(files));) {
+    if (!strstr(f->d_name, ".yml")) continue;
+    check_broken(directory, f->d_name);
+    n++;
+  }
+  closedir(files);
+  assert_true(n >= 50);
+}
+
+/* The message for `size` bytes of text; "" for a case that was read. */
+static void refused(const char *text, size_t size, const char *part)
+{
+  sph_error error = {0};
+  assert_null(sph_case_read_text("bad.yml", text, size, 0, NULL, &error));
+  if (!strstr(error.text, part)) fail_msg("found '%s', expected '%s'", error.text, part);
+}
+
+static void bombs_and_garbage_are_refused_at_once(void **state)
+{
+  enum { BRACKETS = 200000, LARGE = 2 << 20 };
+  char *text = malloc(LARGE);
+  (void)state;
+  assert_non_null(text);
+  memset(text, '[', BRACKETS);
+  refused(text, BRACKETS, "bad.yml:1:34: nested deeper than 32 levels");
+  memset(text, ' ', LARGE);
+  refused(text, LARGE, "at most 1 MiB");
+  for (int k = 0; k < 4096; k++) text[k] = (char)(k * 167 + 128);
+  refused(text, 4096, "a case file is plain text in UTF-8");
+  refused("title: a\0b\n", 11, "control characters are not allowed");
+  refused("title: \"a\\0b\"\n", 14, "found a NUL character");
+  refused("title: \xff\xfe\n", 10, "a case file is plain text in UTF-8");
+  refused("a: &a [1, 1]\nb: &b [*a, *a]\n", 28, "found an anchor (&)");
+  free(text);
+}
+
+static void a_file_that_is_not_there(void **state)
+{
+  sph_error error = {0};
+  (void)state;
+  assert_null(sph_case_read("no/such.yml", 0, NULL, &error));
+  assert_int_equal(error.status, SPH_ERR_FILE);
+  assert_string_equal(error.text, "no/such.yml: cannot open: No such file or directory");
+}
+
+/* ---- the manual */
+
+static void the_manual_is_current(void **state)
+{
+  const char *root = getenv("SRCDIR");
+  char path[1024];
+  (void)state;
+  int length = sph_case_manual(NULL, 0);
+  assert_true(length > 1000);
+  char *made = malloc((size_t)length + 1), *kept = malloc((size_t)length + 2);
+  assert_int_equal(sph_case_manual(made, (size_t)length + 1), length);
+  snprintf(path, sizeof path, "%s/docs/case-files.md", root ? root : ".");
+  FILE *file = fopen(path, "r");
+  if (!file) fail_msg("cannot open %s", path);
+  size_t n = fread(kept, 1, (size_t)length + 1, file);
+  fclose(file);
+  if (n != (size_t)length || memcmp(made, kept, n))
+    fail_msg("docs/case-files.md is old: sphode info case --markdown >docs/case-files.md");
+  free(kept);
+  free(made);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(units_have_their_size_and_dimension),
+      cmocka_unit_test(what_cannot_be_is_refused),
+      cmocka_unit_test(a_problem_tells_its_column),
+      cmocka_unit_test(fields_are_evaluated_at_each_point),
+      cmocka_unit_test(defaults_are_filled_in),
+      cmocka_unit_test(set_replaces_and_adds),
+      cmocka_unit_test(a_wrong_set_says_so),
+      cmocka_unit_test(the_simulation_is_what_the_file_says),
+      cmocka_unit_test(broken_files_say_what_is_wrong),
+      cmocka_unit_test(bombs_and_garbage_are_refused_at_once),
+      cmocka_unit_test(a_file_that_is_not_there),
+      cmocka_unit_test(the_manual_is_current),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
