@@ -44,6 +44,7 @@ void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int qui
 void sph_prog_progress_end(prog_progress *p);
 /* The signal that stopped the run; 0: none. */
 int sph_prog_progress_signal(void);
+double sph_prog_progress_now(void); /* wall time [s] */
 
 /* Draws the pictures of a finished run with n comparisons, and prints their paths. */
 void sph_prog_plot_case(const sph_case *c, const char *directory, int n);

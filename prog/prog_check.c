@@ -67,24 +67,36 @@ static int warnings(const sph_sim *sim)
   return n;
 }
 
+enum { STEPS = 20 };
+
+typedef struct trial {
+  double begin;       /* wall time after the first step [s]: it builds lists and warms caches */
+  double one;         /* wall time of a step after it [s] */
+  sph_sim_stats last; /* after as many */
+} trial;
+
+static int after_step(void *ctx, sph_sim *sim)
+{
+  trial *t = ctx;
+  sph_sim_get_stats(sim, &t->last);
+  long more = t->last.step.steps - 1;
+  if (more == 0) t->begin = sph_prog_progress_now();
+  if (more > 0) t->one = (sph_prog_progress_now() - t->begin) / (double)more;
+  return more >= STEPS;
+}
+
 /* A few steps tell the step size and the speed of this machine; nothing is written. */
 static int estimate(sph_sim *sim, double end)
 {
-  enum { STEPS = 20 };
-  sph_sim_stats first = {0}, last = {0};
-  int status = SPH_OK;
-  for (int k = 0; k < STEPS && !status && sph_sim_time(sim) < end; k++) {
-    status = sph_sim_step(sim);
-    sph_sim_get_stats(sim, k ? &last : &first);
-  }
-  if (status) return status;
-  double steps = ceil(end / last.step.dt_largest);
-  double one = (last.seconds - first.seconds) / (double)(last.step.steps - first.step.steps);
-  if (!(steps > 0 && one > 0)) return SPH_OK;
+  trial t = {0};
+  sph_sim_set_progress(sim, after_step, &t);
+  int status = sph_sim_run(sim, end);
+  if (status && status != SPH_ERR_STOPPED) return status;
+  double steps = ceil(end / t.last.step.dt_largest);
   printf("%-12s about %.3g steps of %.3g s to t = %.4g s (%s)\n", "steps", steps,
-         last.step.dt_largest, end, sph_sim_integrator(sim));
-  printf("%-12s about %.2g s on this machine with %d thread%s, %.3g MB\n", "time", steps * one,
-         sph_sim_threads(sim), sph_sim_threads(sim) == 1 ? "" : "s", 1e-6 * last.bytes);
+         t.last.step.dt_largest, end, sph_sim_integrator(sim));
+  printf("%-12s about %.2g s on this machine with %d thread%s, %.3g MB\n", "time", steps * t.one,
+         sph_sim_threads(sim), sph_sim_threads(sim) == 1 ? "" : "s", 1e-6 * t.last.bytes);
   return SPH_OK;
 }
 

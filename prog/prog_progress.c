@@ -12,7 +12,7 @@ static volatile sig_atomic_t stopped_by;
 
 static void on_signal(int number) { stopped_by = number; }
 
-static double now(void)
+double sph_prog_progress_now(void)
 {
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
@@ -42,7 +42,7 @@ static void tell(prog_progress *p, sph_sim *sim)
 {
   sph_sim_stats s;
   sph_sim_get_stats(sim, &s);
-  double t = sph_sim_time(sim), used = now() - p->start, left = 0;
+  double t = sph_sim_time(sim), used = sph_prog_progress_now() - p->start, left = 0;
   if (t > 0) left = used * (p->end - t) / t;
   fprintf(stderr,
           "%st = %.4g of %.4g s (%3.0f %%)  step %ld of %.3g s, bound by %s  %ld particles  "
@@ -57,7 +57,7 @@ static void tell(prog_progress *p, sph_sim *sim)
 static int is_due(prog_progress *p, const sph_sim *sim)
 {
   if (p->live) {
-    double t = now();
+    double t = sph_prog_progress_now();
     if (t - p->shown < 0.2) return 0;
     p->shown = t;
     return 1;
@@ -78,7 +78,10 @@ static int progress(void *ctx, sph_sim *sim)
 void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int quiet)
 {
   struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESETHAND};
-  *p = (prog_progress){.end = end, .start = now(), .quiet = quiet, .live = isatty(STDERR_FILENO)};
+  *p = (prog_progress){.end = end,
+                       .start = sph_prog_progress_now(),
+                       .quiet = quiet,
+                       .live = isatty(STDERR_FILENO)};
   sigemptyset(&action.sa_mask); /* a second Ctrl-C ends the program at once */
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);
