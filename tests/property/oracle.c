@@ -114,19 +114,21 @@ static void materials(oracle *o)
     oracle_particle *it = &o->particle[i];
     if (is_wall(o, i)) continue;
     pressure_of(eos_of(o, i), it);
+    it->condition = 1;
     for (int k = 0; k < 3; k++) it->v_viscous[k] = it->v[k];
   }
 }
 
 /* ---- walls (Adami, Hu & Adams 2012):
  *   p_w = [sum p_f W + (g - a_w) . sum rho_f r_wf W] / sum W,   rho_w = rho(p_w),
- *   v_w = 2 v - <v_f> for viscous terms that see it ---- */
+ *   v_w = 2 v - <v_f> for viscous terms that see it;  in a gas u_w = <u_f>, and rho_w = rho0 where p_w or u_w is
+ *   not positive ---- */
 
 static void wall(oracle *o, long w)
 {
   oracle_particle *it = &o->particle[w];
   const oracle_group *group = &o->group[it->group];
-  real down[3], sum_w = 0, sum_p = 0, size = 0, sum_v[3] = {0};
+  real down[3], sum_w = 0, sum_p = 0, sum_u = 0, size = 0, sum_v[3] = {0};
   pair wf;
   difference(o->g, group->acceleration, down);
   for (long f = 0; f < o->n; f++) {
@@ -135,13 +137,19 @@ static void wall(oracle *o, long w)
     real weight = oracle_w(o, wf.r);
     sum_w += weight;
     sum_p += weight * (fluid->p + fluid->rho * dot(down, wf.d));
-    size += weight * (fluid->p_size + fluid->rho * norm(down) * wf.r);
+    sum_u += weight * fluid->u;
+    real edge = 1 + 4 / (1 - wf.r / (2 * o->h)); /* W vanishes as t^4 (t^3) at the edge */
+    size += weight * edge * (fluid->p_size + fluid->rho * norm(down) * wf.r);
     for (int k = 0; k < 3; k++) sum_v[k] += weight * fluid->v[k];
   }
   it->p = sum_w > 0 ? sum_p / sum_w : 0;
   it->p_size = sum_w > 0 ? size / sum_w : 0;
   if (!group->tension && it->p < 0) it->p = 0;
-  it->rho = density_of(&group->eos, it->p, it->u);
+  it->u = sum_w > 0 ? sum_u / sum_w : 0;
+  it->rho = group->rho0;
+  it->condition = group->eos.kind == ORACLE_IDEAL_GAS && it->p > 0 ? 1 + it->p_size / it->p : 1;
+  if (group->eos.kind != ORACLE_IDEAL_GAS || (it->p > 0 && it->u > 0))
+    it->rho = density_of(&group->eos, it->p, it->u);
   real p = it->p, p_size = it->p_size;
   pressure_of(&group->eos, it); /* for c */
   it->p = p, it->p_size = p_size;
@@ -215,7 +223,8 @@ static void compression(const oracle *o, oracle_particle *i, const oracle_partic
 {
   real v[3], factor;
   difference(i->v, j->v, v);
-  real rate = dot(v, ij->grad_w), size = (norm(i->v) + norm(j->v)) * ij->grad;
+  real rate = dot(v, ij->grad_w);
+  real size = (norm(i->v) + norm(j->v)) * ij->grad * j->condition;
   if (o->continuity != ORACLE_NONE) {
     factor = o->continuity == ORACLE_C1 ? j->m : i->rho * j->m / j->rho;
     i->drho += factor * rate, i->drho_size += factor * size;
@@ -227,7 +236,7 @@ static void compression(const oracle *o, oracle_particle *i, const oracle_partic
   for (int k = 0; k < 3; k++) i->a[k] -= j->m * factor * ij->grad_w[k];
   factor = s ? i->p_size / (i->rho * i->rho) + j->p_size / (j->rho * j->rho)
              : (i->p_size + j->p_size) / (i->rho * j->rho);
-  i->a_size += j->m * factor * ij->grad;
+  i->a_size += j->m * factor * ij->grad * j->condition;
   factor = s ? j->m / (i->rho * i->rho) : j->m / (i->rho * j->rho);
   i->du += i->p * factor * rate, i->du_size += i->p_size * factor * size;
 }
@@ -242,7 +251,7 @@ static void viscosity(const oracle *o, oracle_particle *i, const oracle_particle
   real scale = h / (ij->r * ij->r + 0.01L * h * h), mu = scale * dot(v, ij->d);
   real speed = norm(i->v_viscous) + norm(j->v_viscous), mu_size = scale * speed * ij->r;
   real Pi = (-o->alpha * c * mu + o->beta * mu * mu) / rho;
-  real Pi_size = (o->alpha * c * mu_size + o->beta * mu_size * mu_size) / rho;
+  real Pi_size = (o->alpha * c * mu_size + o->beta * mu_size * mu_size) / rho * j->condition;
   for (int k = 0; k < 3; k++) i->a[k] -= j->m * Pi * ij->grad_w[k];
   i->a_size += j->m * Pi_size * ij->grad;
   i->du += j->m * Pi * dot(v, ij->grad_w) / 2;
@@ -267,7 +276,7 @@ static void diffusion(const oracle *o, const oracle_eos *eos, int j_is_wall, ora
                       const oracle_particle *j, const pair *ij)
 {
   real factor = o->delta * o->h * eos->c0 * j->m / j->rho, psi[3];
-  real size = 2 * (i->rho + j->rho) / ij->r;
+  real size = 2 * (i->rho + j->rho) / ij->r; /* of liquids: condition 1 */
   for (int k = 0; k < 3; k++) psi[k] = -2 * (j->rho - i->rho) * ij->d[k] / (ij->r * ij->r);
   if (o->diffusion == ORACLE_ANTUONO) {
     const oracle_particle *other = j_is_wall ? i : j;

@@ -20,6 +20,7 @@ typedef struct oracle_group {
   oracle_eos eos;       /* of a wall: that of the fluid it holds */
   int no_slip;          /* of a wall: viscous terms see it */
   int tension;          /* of a wall: p < 0 is allowed */
+  real rho0;            /* of a wall, at rest [kg/m^3] */
   real velocity[3];     /* of a wall [m/s] */
   real acceleration[3]; /* of a wall [m/s^2] */
 } oracle_group;
@@ -34,7 +35,8 @@ typedef struct oracle_particle {
   real v_viscous[3]; /* what viscous terms see [m/s] */
   real gradient[3];  /* <grad rho>^L [kg/m^4] */
   real a[3], drho, du;
-  real p_size, gradient_size, a_size, drho_size, du_size;
+  real p_size, condition; /* condition: of rho */
+  real gradient_size, a_size, drho_size, du_size;
 } oracle_particle;
 
 enum { ORACLE_GROUPS = 4 };

@@ -93,6 +93,7 @@ static void groups(scene *s, const scene_def *def)
   for (int g = 0; g < ORACLE_GROUPS; g++) {
     oracle_group *group = &s->o.group[g];
     *group = (oracle_group){.wall = g >= 2, .no_slip = def->no_slip, .tension = def->tension};
+    group->rho0 = rho0_of_all;
     group->eos = def->thermal ? gas : g == 1 ? linear : tait;
     for (int k = 0; k < def->dim && g == 3; k++) {
       group->velocity[k] = 0.25 * (k + 1);

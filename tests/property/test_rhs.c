@@ -34,7 +34,7 @@ static void compare(const scene *s, const scene_def *def, const scene_rates *r)
     const oracle_particle *it = &s->o.particle[i];
     int wall = s->o.group[it->group].wall;
     same(wall ? "wall p" : "p", def, i, r->p[i], it->p, it->p_size);
-    same(wall ? "wall rho" : "rho", def, i, r->rho[i], it->rho, it->rho);
+    same(wall ? "wall rho" : "rho", def, i, r->rho[i], it->rho, it->rho * it->condition);
     if (wall) continue;
     same("c", def, i, r->c[i], it->c, it->c);
     for (int k = 0; k < def->dim; k++) same("a", def, i, r->a[k][i], it->a[k], it->a_size);
@@ -108,6 +108,8 @@ static void liquids(void **state) { (void)state, all_scenes(0, 0); }
 static void gases(void **state) { (void)state, all_scenes(0, 1); }
 static void liquids_over_a_wall(void **state) { (void)state, all_scenes(1, 0); }
 static void liquids_between_walls(void **state) { (void)state, all_scenes(2, 0); }
+
+static void gases_between_walls(void **state) { (void)state, all_scenes(2, 1); }
 
 /* Every instruction set that this processor runs. */
 static void all_instruction_sets(void **state)
@@ -232,6 +234,7 @@ int main(void)
       cmocka_unit_test(gases),
       cmocka_unit_test(liquids_over_a_wall),
       cmocka_unit_test(liquids_between_walls),
+      cmocka_unit_test(gases_between_walls),
       cmocka_unit_test(all_instruction_sets),
       cmocka_unit_test(moved_particles),
       cmocka_unit_test(any_threads),
