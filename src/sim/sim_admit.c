@@ -17,13 +17,14 @@ int sph_sim_admit_retry(sph_sim *sim, const char *format, ...)
   return SPH_RETRY;
 }
 
-/* After a list build: pairs inside the support, and none nearer than 0.1 dx. */
-static int count(sph_evaluation *e)
+/* After a list build: pairs inside the support, and particles nearer than 0.1 dx to another.  These are reported, not refused:
+ * lone particles of spray may stick together, and a smaller step would not part them. */
+static void count(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
   const count_constants constants = {.H2 = sim->H * sim->H, .near2 = 0.01 * sim->dx * sim->dx};
-  long near = 0;
-  double pairs = 0;
+  sim->near = 0;
+  sim->pairs_now = 0;
   for (int g = 0; g < sim->groups; g++) {
     double *const *sum = sim->sorted[g].sum;
     if (sim->group[g]->wall) continue;
@@ -31,16 +32,11 @@ static int count(sph_evaluation *e)
     for (int s = 0; s < sim->groups; s++)
       sph_sim_pairs_loop(sim, sph_count_loop(sim->isa, sim->dim), g, s, &constants);
     for (long s = 0; s < e->view[g].n; s++) {
-      pairs += sum[SPH_COUNT_PAIRS][s];
-      near += sum[SPH_COUNT_NEAR][s] > 0 || sum[SPH_COUNT_ZERO][s] > 1;
+      sim->pairs_now += sum[SPH_COUNT_PAIRS][s];
+      sim->near += sum[SPH_COUNT_NEAR][s] > 0 || sum[SPH_COUNT_ZERO][s] > 1;
     }
   }
-  sim->pairs_now = pairs;
   sim->fresh = 0;
-  if (near)
-    return sph_sim_admit_retry(sim, "%ld particles are nearer than 0.1 dx = %g m to another", near,
-                               0.1 * sim->dx);
-  return SPH_OK;
 }
 
 /* What one group's rates say. */
@@ -70,21 +66,29 @@ static extremes look(const sph_sim *sim, const sph_view *view)
   return (extremes){v2_max, a2_max, sim->h / speed_max, bad};
 }
 
+/* A gas may meet itself head on: its approach speed is up to 2 max |v|. */
+static double slowest(const sph_sim *sim, const sph_group *group, const extremes *x)
+{
+  if (!group->eos.thermal) return x->slowest;
+  return sim->h / (sim->h / x->slowest + (1 + 1.2 * sim->terms.beta) * sqrt(x->v2));
+}
+
 int sph_sim_admit(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
-  int status = sim->fresh ? count(e) : SPH_OK;
+  int status = SPH_OK;
+  double cfl = INFINITY, force = INFINITY;
+  if (sim->fresh) count(e);
   sim->pairs += sim->pairs_now;
-  sim->limit_cfl = sim->limit_force = INFINITY;
   for (int g = 0; !status && g < sim->groups; g++) {
     if (sim->group[g]->wall) continue;
-    extremes x = look(sim, &e->view[g]);
-    if (x.bad) return sph_sim_admit_retry(sim, "rates of %ld particles are not finite", x.bad);
-    if (sim->group[g]
-            ->eos.thermal) /* a gas may meet itself head on: approach speed up to 2 max |v| */
-      x.slowest = sim->h / (sim->h / x.slowest + sqrt(x.v2) + 1.2 * sim->terms.beta * sqrt(x.v2));
-    sim->limit_cfl = fmin(sim->limit_cfl, x.slowest);
-    if (x.a2 > 0) sim->limit_force = fmin(sim->limit_force, 0.25 * sqrt(sim->h / sqrt(x.a2)));
+    const extremes x = look(sim, &e->view[g]);
+    if (x.bad) status = sph_sim_admit_retry(sim, "rates of %ld particles are not finite", x.bad);
+    cfl = fmin(cfl, slowest(sim, sim->group[g], &x));
+    if (x.a2 > 0) force = fmin(force, 0.25 * sqrt(sim->h / sqrt(x.a2)));
   }
-  return status;
+  if (status) return status; /* the limits stay those of the last good evaluation */
+  sim->limit_cfl = cfl;
+  sim->limit_force = force;
+  return SPH_OK;
 }

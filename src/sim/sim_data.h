@@ -69,6 +69,7 @@ struct sph_sim {
   int fresh;                                 /* ... and have not been counted yet */
   int derived;                               /* pressure etc. are those of the state shown */
   double limit_cfl, limit_force, limit_user; /* step limits of the last evaluation [s] */
+  long near;        /* particles nearer than 0.1 dx to another, at the last list build */
   double pairs_now; /* directed pairs inside the support, at the last list build */
   double pairs, seconds, rhs_seconds;
   long list_builds, revision;

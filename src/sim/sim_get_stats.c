@@ -23,5 +23,6 @@ void sph_sim_get_stats(const sph_sim *sim, sph_sim_stats *stats)
   stats->seconds = sim->seconds;
   stats->rhs_seconds = sim->rhs_seconds;
   stats->list_builds = sim->list_builds;
+  stats->near = sim->near;
   stats->bytes = held(sim);
 }

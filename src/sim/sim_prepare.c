@@ -211,6 +211,12 @@ int sph_sim_prepare(sph_sim *sim)
   if (status > 0)
     status =
         sph_sim_fail(sim, SPH_ERR_ARGUMENT, "the initial state is not admissible: %s", sim->retry);
+  if (!status && sim->near)
+    status = sph_sim_fail(
+        sim, SPH_ERR_ARGUMENT,
+        "%ld particles start nearer than 0.1 dx = %g m to another (a wall in the fluid, "
+        "or two shapes that overlap?)",
+        sim->near, 0.1 * sim->dx);
   for (int g = 0; !status && g < sim->groups; g++) {
     sph_view view = sph_group_data_view(sim->group[g], sph_nvector_data(sim->y), NULL);
     if (!sim->group[g]->wall) sph_sim_weights_scales(sim, g, &view);
