@@ -1,0 +1,450 @@
+/* The integrators on equations with known solutions: order, dense output, stop times, limits,
+ * retries, refusals, threads; and that nothing is ever printed. */
+#define _POSIX_C_SOURCE 200809L
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "ode.h"
+#include "stability.h"
+
+static const double TURN = 6.283185307179586;
+
+typedef void (*problem)(ode *o);
+
+/* Largest error at `stops` times up to t_end, with n steps between them. */
+static double error_of(problem make, const char *method, double t_end, int stops, int n)
+{
+  ode o;
+  double most = 0;
+  make(&o);
+  ode_start(&o, &(sph_integrator_def){.method = method, .dt_fixed = t_end / (stops * n)});
+  for (int k = 1; k <= stops; k++) {
+    if (ode_run(&o, k * t_end / stops)) fail_msg("%s: %s", method, o.error.text);
+    most = fmax(most, ode_error(&o, k * t_end / stops, o.y));
+  }
+  assert_int_equal(sph_integrator_stats(o.it)->steps, stops * n);
+  ode_end(&o);
+  return most;
+}
+
+/* Steps are halved until the error nears rounding or n_max is reached: of the last two slopes
+ * the better. */
+static void assert_order(problem make, const sph_integrator_info *info, double t_end, int stops,
+                         int n_max)
+{
+  double error = error_of(make, info->name, t_end, stops, 2), slope[2] = {0, 0};
+  for (int n = 4; n <= n_max; n *= 2) {
+    double finer = error_of(make, info->name, t_end, stops, n);
+    if (finer < 1e-12 && n > 4) break;
+    slope[0] = slope[1];
+    slope[1] = log2(error / finer);
+    error = finer;
+  }
+  if (!(fmax(slope[0], slope[1]) >= info->order - 0.1))
+    fail_msg("%s: order %.2f, %.2f, nominal %d (error %.2e)", info->name, slope[0], slope[1],
+             info->order, error);
+}
+
+static void every_scheme_has_its_order(void **state)
+{
+  (void)state;
+  sph_integrator_info info;
+  for (int k = 0; sph_integrator_info_get(k, &info); k++) {
+    assert_in_range(info.order, 1, 9);
+    if (info.order <= 4) assert_order(ode_kepler, &info, TURN, 1, info.order == 1 ? 16384 : 2048);
+    assert_order(ode_made, &info, 4, 8, 256);
+  }
+}
+
+static void rows_tell_the_truth(void **state)
+{
+  (void)state;
+  sph_integrator_info info;
+  int k = 0;
+  for (; sph_integrator_info_get(k, &info); k++) {
+    ode o;
+    ode_made(&o);
+    ode_start(&o, &(sph_integrator_def){.method = info.name, .dt_fixed = 0.01});
+    assert_int_equal(ode_run(&o, 1), SPH_OK);
+    double calls = (double)sph_integrator_stats(o.it)->rhs_evaluations;
+    if (!(calls >= 100 * info.stages && calls <= 102 * info.stages + 2))
+      fail_msg("%s: %g evaluations in 100 steps, %d stages", info.name, calls, info.stages);
+    assert_int_equal(calls, o.calls);
+    assert_true(info.stability > 0.1 && info.stability < 6);
+    ode_end(&o);
+  }
+  assert_true(k >= 17);
+  assert_int_equal(sph_integrator_info_get(-1, &info), 0);
+  assert_string_equal(sph_bound_name(SPH_BOUND_CFL), "cfl");
+  assert_string_equal(sph_bound_name(SPH_BOUND_RETRY), "retry");
+  assert_string_equal(sph_bound_name(99), "");
+}
+
+/* Forward Euler: |1 + z| <= 1 for z = r (-zeta + i sqrt(1 - zeta^2)) up to r = 2 zeta, zeta >=
+ * 0.1. */
+static void stability_of_euler(void **state)
+{
+  (void)state;
+  const double A[1] = {0}, *rows[1] = {A}, b[1] = {1};
+  assert_float_equal(sph_stability(1, rows, b), 0.99 * 0.2, 0.006);
+}
+
+/* Largest error of the state inside the steps. */
+static double dense_error(const char *method, int n)
+{
+  ode o;
+  double most = 0;
+  ode_made(&o);
+  ode_start(&o, &(sph_integrator_def){.method = method, .dt_fixed = 2.0 / n});
+  N_Vector at = N_VClone(o.y);
+  while (sph_integrator_time(o.it) < 2) {
+    assert_int_equal(sph_integrator_step(o.it, 2), SPH_OK);
+    double t0 = sph_integrator_previous(o.it), t1 = sph_integrator_time(o.it);
+    for (int k = 0; k <= 4; k++) {
+      double t = t0 + k * (t1 - t0) / 4;
+      assert_int_equal(sph_integrator_interpolate(o.it, t, at), SPH_OK);
+      most = fmax(most, ode_error(&o, t, at));
+    }
+  }
+  N_VDestroy(at);
+  ode_end(&o);
+  return most;
+}
+
+static void dense_output_keeps_the_order(void **state)
+{
+  static const struct {
+    const char *method;
+    double order;
+  } row[] = {{"leapfrog", 2}, {"erk:bogacki-shampine-4-2-3", 3}, {"erk:dormand-prince-7-4-5", 4}};
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    double order = log2(dense_error(row[k].method, 80) / dense_error(row[k].method, 160));
+    if (!(order > row[k].order - 0.1)) fail_msg("%s: dense order %.2f", row[k].method, order);
+  }
+}
+
+/* A central force of position alone: the energy of the leapfrog orbit comes back, for hundreds
+ * of turns. */
+static void leapfrog_keeps_the_energy(void **state)
+{
+  (void)state;
+  ode o;
+  ode_kepler(&o);
+  ode_start(&o, &(sph_integrator_def){.method = "leapfrog", .dt_fixed = TURN / 100});
+  const double *y = sph_nvector_data(o.y);
+  double worst[2] = {0, 0};
+  for (int turn = 0; turn < 200; turn++) {
+    assert_int_equal(ode_run(&o, (turn + 1) * TURN), SPH_OK);
+    double energy = (y[ODE_U] * y[ODE_U] + y[ODE_V] * y[ODE_V]) / 2 - 1 / hypot(y[ODE_X], y[ODE_Y]);
+    worst[turn / 100] = fmax(worst[turn / 100], fabs(energy + 0.5));
+  }
+  assert_true(worst[0] > 1e-7 && worst[1] < 1.05 * worst[0] && worst[1] < 2e-3);
+  ode_end(&o);
+}
+
+static void stop_times_are_exact(void **state)
+{
+  static const char *const method[] = {"leapfrog", NULL, "erk:zonneveld-5-3-4"};
+  (void)state;
+  for (int k = 0; k < 6; k++) {
+    ode o;
+    ode_made(&o);
+    o.limit[SPH_BOUND_CFL] = 0.1;
+    ode_start(&o, &(sph_integrator_def){.method = method[k / 2], .tolerance = k % 2 ? -1 : 0});
+    double stops[] = {0.3, 0.3 + 1e-9, 0.7, 1, 1 + 1e-15, 2};
+    for (int s = 0; s < 6; s++) {
+      assert_int_equal(ode_run(&o, stops[s]), SPH_OK);
+      assert_true(sph_integrator_time(o.it) == stops[s]);
+    }
+    const sph_step_stats *stats = sph_integrator_stats(o.it);
+    assert_true(stats->steps <=
+                2 / stats->dt_largest + 12); /* a sliver does not slow what follows */
+    assert_in_range(stats->bound_by[SPH_BOUND_STOP], 2, 6);
+    assert_true(ode_error(&o, 2, o.y) < 0.01);
+    ode_end(&o);
+  }
+}
+
+static void limits_bind_and_are_recorded(void **state)
+{
+  static const struct {
+    const char *method;
+    double S;
+  } row[] = {{"leapfrog", 0.72}, {NULL, 2.14}, {"erk:heun-euler-2-1-2", 1.33}};
+  (void)state;
+  for (int k = 0; k < 6; k++) {
+    ode o;
+    int cfl = k % 2;
+    ode_made(&o);
+    o.limit[SPH_BOUND_CFL] = 0.02;
+    o.limit[SPH_BOUND_FORCE] = cfl ? 1 : 0.003;
+    ode_start(&o, &(sph_integrator_def){.method = row[k / 2].method, .cfl = 0.9});
+    assert_int_equal(ode_run(&o, 2), SPH_OK);
+    const sph_step_stats *stats = sph_integrator_stats(o.it);
+    double expected = cfl ? 0.9 * row[k / 2].S * 0.02 : 0.003;
+    assert_true(fabs(stats->dt_largest / expected - 1) < 1e-9);
+    assert_true(fabs(stats->dt_smallest / expected - 1) < 1e-9);
+    int bound = cfl ? SPH_BOUND_CFL : SPH_BOUND_FORCE;
+    assert_true(stats->bound_by[bound] >= stats->steps - 1);
+    assert_true((double)stats->steps <= 2 / expected + 1);
+    ode_end(&o);
+  }
+}
+
+static void error_control_holds_the_tolerance(void **state)
+{
+  (void)state;
+  double steps[2];
+  for (int k = 0; k < 2; k++) {
+    double tolerance = k ? 1e-7 : 1e-4;
+    ode o;
+    ode_kepler(&o);
+    o.problem.limits = NULL;
+    ode_start(&o, &(sph_integrator_def){.tolerance = tolerance});
+    assert_int_equal(ode_run(&o, TURN), SPH_OK);
+    double error = ode_error(&o, TURN, o.y);
+    assert_true(error > tolerance && error < 100 * tolerance);
+    const sph_step_stats *stats = sph_integrator_stats(o.it);
+    assert_true(stats->bound_by[SPH_BOUND_ERROR] >= stats->steps - 1);
+    steps[k] = (double)stats->steps;
+    ode_end(&o);
+  }
+  assert_float_equal(log(steps[1] / steps[0]) / log(1e3), 1.0 / 3,
+                     0.05); /* steps ~ tolerance^(-1/3) */
+}
+
+static void fixed_largest_and_smallest_steps(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    ode o;
+    ode_made(&o);
+    o.limit[SPH_BOUND_CFL] = 1e-3; /* recorded, not obeyed */
+    ode_start(&o, &(sph_integrator_def){.method = k ? "verlet" : NULL, .dt_fixed = 0.01});
+    assert_int_equal(ode_run(&o, 1), SPH_OK);
+    assert_int_equal(sph_integrator_stats(o.it)->bound_by[SPH_BOUND_USER], 100);
+    ode_end(&o);
+    ode_made(&o);
+    ode_start(&o, &(sph_integrator_def){.method = k ? "verlet" : NULL, .dt_max = 0.02});
+    assert_int_equal(ode_run(&o, 1), SPH_OK);
+    assert_int_equal(sph_integrator_stats(o.it)->steps, 50);
+    ode_end(&o);
+    ode_made(&o);
+    o.limit[SPH_BOUND_CFL] = 1e-3;
+    ode_start(&o, &(sph_integrator_def){.method = k ? "verlet" : NULL, .dt_min = 0.01});
+    assert_int_equal(ode_run(&o, 1), SPH_ERR_STEP);
+    assert_non_null(strstr(o.error.text, "bound by cfl) is below dt_min"));
+    ode_end(&o);
+  }
+}
+
+/* A rate that cannot be had at one moment costs one retry and nothing else. */
+static void a_failed_evaluation_is_repeated(void **state)
+{
+  static const char *const method[] = {"leapfrog", NULL, "erk:zonneveld-5-3-4"};
+  (void)state;
+  for (int k = 0; k < 6; k++) {
+    ode o;
+    ode_made(&o);
+    o.limit[SPH_BOUND_CFL] = 0.01;
+    o.fail_from = 41;
+    o.fail_count = 2;
+    ode_start(&o, &(sph_integrator_def){.method = method[k / 2], .tolerance = k % 2 ? -1 : 0});
+    assert_int_equal(ode_run(&o, 2), SPH_OK);
+    const sph_step_stats *stats = sph_integrator_stats(o.it);
+    assert_int_equal(stats->retries, 2);
+    assert_true(stats->bound_by[SPH_BOUND_RETRY] >= 1);
+    assert_true(fabs(stats->dt_smallest * 4 / stats->dt_largest - 1) < 1e-6);
+    assert_true(ode_error(&o, 2, o.y) < 1e-3);
+    ode_end(&o);
+  }
+}
+
+/* What goes on failing ends at the last good state, with a text that says all. */
+static void lasting_failure_stops_at_the_last_good_state(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    ode o;
+    ode_made(&o);
+    o.limit[SPH_BOUND_CFL] = 0.01;
+    o.fail_from = 60;
+    o.fail_count = 1000;
+    if (k >= 2) o.fail_status = SPH_ERR_STATE;
+    ode_start(&o, &(sph_integrator_def){.method = k % 2 ? NULL : "leapfrog", .retries = 5});
+    assert_int_equal(ode_run(&o, 2), k < 2 ? SPH_ERR_STEP : SPH_ERR_STATE);
+    if (k < 2) assert_non_null(strstr(o.error.text, "after 5 halvings"));
+    assert_int_equal(sph_integrator_stats(o.it)->retries, k < 2 ? 5 : 0);
+    double t = sph_integrator_time(o.it);
+    assert_true(t > 0.1 && ode_error(&o, t, o.y) < 1e-4);
+    ode_end(&o);
+  }
+}
+
+static void inadmissible_states_are_stepped_anew(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    ode o;
+    ode_made(&o);
+    o.limit[SPH_BOUND_USER] = 0.04;
+    o.reject_above = 0.021;
+    ode_start(&o,
+              &(sph_integrator_def){.method = k ? NULL : "leapfrog", .tolerance = k == 2 ? -1 : 0});
+    assert_int_equal(ode_run(&o, 1), SPH_OK);
+    const sph_step_stats *stats = sph_integrator_stats(o.it);
+    assert_true(stats->retries > 10 && stats->dt_largest <= 0.021);
+    assert_true(stats->bound_by[SPH_BOUND_RETRY] > 10);
+    assert_true(ode_error(&o, 1, o.y) < 1e-3);
+    ode_end(&o);
+  }
+}
+
+/* y is changed between steps, then a reset: the same as a new start from there. */
+static void reset_is_a_new_start(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    const sph_integrator_def def = {.method = k ? NULL : "leapfrog", .tolerance = k == 2 ? -1 : 0};
+    ode o, fresh;
+    ode_made(&o);
+    ode_made(&fresh);
+    o.limit[SPH_BOUND_CFL] = fresh.limit[SPH_BOUND_CFL] = 0.02;
+    ode_start(&o, &def);
+    ode_start(&fresh, &def);
+    assert_int_equal(ode_run(&o, 0.5), SPH_OK);
+    o.exact(0, sph_nvector_data(o.y));
+    assert_int_equal(sph_integrator_reset(o.it, 0), SPH_OK);
+    o.time = 0;
+    assert_int_equal(ode_run(&o, 1), SPH_OK);
+    assert_int_equal(ode_run(&fresh, 1), SPH_OK);
+    assert_memory_equal(sph_nvector_data(o.y), sph_nvector_data(fresh.y),
+                        ODE_LENGTH * sizeof(double));
+    ode_end(&o);
+    ode_end(&fresh);
+  }
+}
+
+static void misuse_is_refused_with_a_reason(void **state)
+{
+  static const struct {
+    sph_integrator_def def;
+    const char *text;
+  } row[] = {
+      {{.method = "erk:bogacki"}, "the nearest is"},
+      {{.method = "verlett"}, "nearest is \"verlet\""},
+      {{.method = "erk:bogacki-shampine-4-2-4"}, "nearest is \"erk:bogacki-shampine-4-2-3\""},
+      {{.cfl = -1}, "cfl = -1"},
+      {{.cfl = NAN}, "cfl = nan"},
+      {{.tolerance = INFINITY}, "tolerance = inf"},
+      {{.dt_max = -1}, "dt_max = -1"},
+      {{.dt_min = -1}, "dt_min = -1"},
+      {{.dt_fixed = -1}, "dt_fixed = -1"},
+      {{.retries = -1}, "retries = -1"},
+      {{.method = "leapfrog", .tolerance = 1e-3}, "no error estimate"},
+  };
+  (void)state;
+  for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+    sph_error error = {0};
+    assert_int_equal(sph_integrator_check(&row[k].def, &error), SPH_ERR_ARGUMENT);
+    if (!strstr(error.text, row[k].text)) fail_msg("\"%s\" lacks \"%s\"", error.text, row[k].text);
+  }
+  ode o;
+  ode_made(&o);
+  ode_start(&o, &(sph_integrator_def){.method = "leapfrog"});
+  assert_int_equal(sph_integrator_interpolate(o.it, 0.1, o.y), SPH_ERR_STATE);
+  o.error = (sph_error){0};
+  assert_int_equal(sph_integrator_step(o.it, 0), SPH_ERR_ARGUMENT);
+  o.error = (sph_error){0};
+  assert_int_equal(sph_integrator_step(o.it, NAN), SPH_ERR_ARGUMENT);
+  o.error = (sph_error){0};
+  assert_int_equal(sph_integrator_step(o.it, 1), SPH_ERR_ARGUMENT); /* nothing limits the step */
+  ode_end(&o);
+}
+
+static void *work(void *ctx)
+{
+  ode *o = ctx;
+  for (int k = 1; k <= 50; k++)
+    if (ode_run(o, 0.1 * k)) return o;
+  return NULL;
+}
+
+static void two_threads_do_not_meet(void **state)
+{
+  (void)state;
+  ode o[3];
+  pthread_t thread[2];
+  void *failed;
+  for (int k = 0; k < 3; k++) {
+    ode_made(&o[k]);
+    o[k].limit[SPH_BOUND_CFL] = 0.01;
+    ode_start(&o[k], &(sph_integrator_def){.tolerance = 1e-5});
+  }
+  for (int k = 0; k < 2; k++) assert_int_equal(pthread_create(&thread[k], NULL, work, &o[k]), 0);
+  assert_null(work(&o[2]));
+  for (int k = 0; k < 2; k++) {
+    pthread_join(thread[k], &failed);
+    assert_null(failed);
+    assert_memory_equal(sph_nvector_data(o[k].y), sph_nvector_data(o[2].y),
+                        ODE_LENGTH * sizeof(double));
+  }
+  for (int k = 0; k < 3; k++) ode_end(&o[k]);
+}
+
+/* Failures of all kinds write nothing to stdout and stderr. */
+static void nothing_is_printed(void **state)
+{
+  FILE *said = tmpfile();
+  int keep[2];
+  assert_non_null(said);
+  fflush(NULL);
+  for (int k = 0; k < 2; k++) {
+    keep[k] = dup(k + 1);
+    dup2(fileno(said), k + 1);
+  }
+  misuse_is_refused_with_a_reason(state);
+  lasting_failure_stops_at_the_last_good_state(state);
+  a_failed_evaluation_is_repeated(state);
+  fflush(NULL);
+  for (int k = 0; k < 2; k++) {
+    dup2(keep[k], k + 1);
+    close(keep[k]);
+  }
+  long bytes = lseek(fileno(said), 0, SEEK_END);
+  fclose(said);
+  assert_int_equal(bytes, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_scheme_has_its_order),
+      cmocka_unit_test(rows_tell_the_truth),
+      cmocka_unit_test(stability_of_euler),
+      cmocka_unit_test(dense_output_keeps_the_order),
+      cmocka_unit_test(leapfrog_keeps_the_energy),
+      cmocka_unit_test(stop_times_are_exact),
+      cmocka_unit_test(limits_bind_and_are_recorded),
+      cmocka_unit_test(error_control_holds_the_tolerance),
+      cmocka_unit_test(fixed_largest_and_smallest_steps),
+      cmocka_unit_test(a_failed_evaluation_is_repeated),
+      cmocka_unit_test(lasting_failure_stops_at_the_last_good_state),
+      cmocka_unit_test(inadmissible_states_are_stepped_anew),
+      cmocka_unit_test(reset_is_a_new_start),
+      cmocka_unit_test(misuse_is_refused_with_a_reason),
+      cmocka_unit_test(two_threads_do_not_meet),
+      cmocka_unit_test(nothing_is_printed),
+  };
+  return cmocka_run_group_tests_name("integrator", tests, NULL, NULL);
+}
