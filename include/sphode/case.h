@@ -1,7 +1,9 @@
-/* sphode/case.h -- case files: a simulation, its outputs and what it is compared with, as a text.
+/* sphode/case.h -- case files: a simulation, its outputs and what it is compared with, as a
+ * text.
  *
- * docs/case-files.md tells every key.  Errors read "file:line:column: what was found; what is right".  A case is
- * read only once made: simulations of one case may be made and run in several threads. */
+ * docs/case-files.md tells every key.  Errors read "file:line:column: what was found; what is
+ * right".  A case is read only once made: simulations of one case may be made and run in several
+ * threads. */
 #ifndef SPHODE_CASE_H
 #define SPHODE_CASE_H
 #include <stddef.h>
@@ -16,26 +18,29 @@ extern "C" {
 
 typedef struct sph_case sph_case;
 
-/* Reads and checks a case file; set[n]: "key=value", as "spacing=1 cm" or "groups.0.density=900", put in place of what
- * the file says.  NULL: the reason is in error. */
+/* Reads and checks a case file; set[n]: "key=value", as "spacing=1 cm" or
+ * "groups.0.density=900", put in place of what the file says.  NULL: the reason is in error. */
 SPH_API sph_case *sph_case_read(const char *path, int n, const char *const *set, sph_error *error);
 /* The same of a text of `size` bytes; path stands in messages, and files are searched beside it. */
 SPH_API sph_case *sph_case_read_text(const char *path, const char *text, size_t size, int n,
                                      const char *const *set, sph_error *error);
 SPH_API void sph_case_free(sph_case *c);
 
-/* The simulation of the case, without outputs; threads: 0 takes what the case says.  NULL: see error. */
+/* The simulation of the case, without outputs; threads: 0 takes what the case says.  NULL: see
+ * error. */
 SPH_API sph_sim *sph_case_build(const sph_case *c, int threads, sph_error *error);
-/* The outputs of the case, into a directory; command: the command line, kept in the snapshots; NULL: none. */
+/* The outputs of the case, into a directory; command: the command line, kept in the snapshots;
+ * NULL: none. */
 SPH_API void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directory,
                                     const char *command);
 
-/* What a finished run in a directory says against the references of the case: *list[*n], sph_case_compare_free. */
+/* What a finished run in a directory says against the references of the case: *list[*n],
+ * sph_case_compare_free. */
 SPH_API int sph_case_compare(const sph_case *c, sph_sim *sim, const char *directory,
                              sph_comparison **list, int *n, sph_error *error);
 SPH_API void sph_case_compare_free(sph_comparison *list, int n);
-/* Draws comparison k = 0, 1, ... of a time series with a table as directory/compare_k.png, whose path is written to
- * png[size].  SPH_ERR_ARGUMENT: not such a comparison. */
+/* Draws comparison k = 0, 1, ... of a time series with a table as directory/compare_k.png, whose
+ * path is written to png[size].  SPH_ERR_ARGUMENT: not such a comparison. */
 SPH_API int sph_case_compare_plot(const sph_case *c, int k, const char *directory, char *png,
                                   size_t size, sph_error *error);
 
@@ -46,7 +51,8 @@ SPH_API double sph_case_end(const sph_case *c); /* [s] */
 SPH_API const char *sph_case_plot_field(const sph_case *c);
 SPH_API int sph_case_plot_frames(const sph_case *c);
 
-/* The manual of the format as Markdown, made from the same table that checks case files.  As snprintf. */
+/* The manual of the format as Markdown, made from the same table that checks case files.  As
+ * snprintf. */
 SPH_API int sph_case_manual(char *buffer, size_t size);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
-/* The check of a case against the schema: it reads top down, stops at the first error, leaves behind a tree in which
- * every key with a default is present and every number is evaluated. */
+/* The check of a case against the schema: it reads top down, stops at the first error, leaves
+ * behind a tree in which every key with a default is present and every number is evaluated. */
 #include <ctype.h>
 #include <float.h>
 #include <math.h>

@@ -1,4 +1,5 @@
-/* case_curve.h -- distances between a curve that a run gave and a reference.  Knows no files and no particles. */
+/* case_curve.h -- distances between a curve that a run gave and a reference.  Knows no files and
+ * no particles. */
 #ifndef SPH_CASE_CURVE_H
 #define SPH_CASE_CURVE_H
 #include "sphode/base.h"
@@ -28,8 +29,8 @@ typedef struct sph_case_distance {
 /* 0 or SPH_ERR_MEMORY. */
 int sph_case_curve_compare(const sph_case_curve *run, const sph_case_curve *reference,
                            sph_case_distance *distance, sph_error *error);
-/* The mean of y over x - width/2 ... x + width/2, cut at the ends of the run; width 0: y at x, before the first point
- * the first y.  integral[n] as of sph_case_curve_integrate. */
+/* The mean of y over x - width/2 ... x + width/2, cut at the ends of the run; width 0: y at x,
+ * before the first point the first y.  integral[n] as of sph_case_curve_integrate. */
 double sph_case_curve_mean(const sph_case_curve *run, const double *integral, double x,
                            double width);
 void sph_case_curve_integrate(const sph_case_curve *run, double *integral);

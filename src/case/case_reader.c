@@ -239,7 +239,8 @@ char *sph_case_reader_load(const char *path, size_t *size, sph_error *error)
     sph_error_set(error, SPH_ERR_FILE, "%s: cannot open: %s", path, strerror(errno));
     return NULL;
   }
-  /* One byte more than allowed: a longer file is seen without asking for its size (pipes have none). */
+  /* One byte more than allowed: a longer file is seen without asking for its size (pipes have
+   * none). */
   text = SPH_NEW(char, SPH_CASE_BYTES + 2, "the case file", error);
   if (!text) goto done;
   *size = fread(text, 1, SPH_CASE_BYTES + 1, file);

@@ -22,7 +22,8 @@ struct sph_case_node {
   sph_case_node *first, *last, *next;
 };
 
-/* The tree of one document, NULL with an error "path:line:column: ..."; path only stands in messages. */
+/* The tree of one document, NULL with an error "path:line:column: ..."; path only stands in
+ * messages. */
 sph_case_node *sph_case_reader_parse(const char *path, const char *text, size_t size,
                                      sph_error *error);
 /* Bytes of a file, with a NUL behind; at most SPH_CASE_BYTES. */

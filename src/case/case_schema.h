@@ -54,9 +54,11 @@ const sph_case_key *sph_case_schema_key(int k);         /* NULL behind the last 
 /* Choice k of a WORD or WORDS, written to word[80]; NULL behind the last. */
 const char *sph_case_schema_choice(const sph_case_key *key, int k, char word[80]);
 
-/* Checks the tree of c, evaluates its numbers, adds the defaults; a status, the reason in c->error. */
+/* Checks the tree of c, evaluates its numbers, adds the defaults; a status, the reason in
+ * c->error. */
 int sph_case_check(sph_case *c); /* case_check.c */
-/* Records "path:line:column: ..."; the key's place or the value's (value == 1), `column` characters into it. */
+/* Records "path:line:column: ..."; the key's place or the value's (value == 1), `column`
+ * characters into it. */
 int sph_case_schema_fail(const sph_case *c, sph_error *error, const sph_case_node *node, int value,
                          int column, const char *format, ...) SPH_PRINTF(6, 7);
 

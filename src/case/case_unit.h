@@ -10,8 +10,9 @@ typedef struct sph_case_unit {
   double power[SPH_CASE_BASES];
 } sph_case_unit;
 
-/* Reads a unit as long as one stands there: "m/s^2", "kPa", "N m", "/s"; returns the characters taken, 0: none.
- * Behind * or / stands a unit only if is_name(ctx, word, length) says that the word is no name of the user's. */
+/* Reads a unit as long as one stands there: "m/s^2", "kPa", "N m", "/s"; returns the characters
+ * taken, 0: none. Behind * or / stands a unit only if is_name(ctx, word, length) says that the
+ * word is no name of the user's. */
 size_t sph_case_unit_parse(const char *text, int (*is_name)(void *ctx, const char *word, size_t),
                            void *ctx, sph_case_unit *unit);
 /* Whether a word is a unit, by itself. */

@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Units are checked without a parser of our own: the expression is evaluated again with the kilogram, the metre and
- * the second made 4 times larger and smaller.  A value that grows as a power of each has that dimension; one that
- * does not adds what cannot be added. */
+/* Units are checked without a parser of our own: the expression is evaluated again with the
+ * kilogram, the metre and the second made 4 times larger and smaller.  A value that grows as a
+ * power of each has that dimension; one that does not adds what cannot be added. */
 
 /* muParser keeps the text of an error in a buffer of the process. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;

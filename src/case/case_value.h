@@ -21,8 +21,8 @@ typedef struct sph_case_value {
   char problem[300];            /* what was found; what is right; "" without */
 } sph_case_value;
 
-/* Evaluates text with names[n]; problems (also values not finite, sums of metres and seconds) are told in result and
- * give SPH_ERR_PARSE. */
+/* Evaluates text with names[n]; problems (also values not finite, sums of metres and seconds)
+ * are told in result and give SPH_ERR_PARSE. */
 int sph_case_value_evaluate(const char *text, const sph_case_name *names, int n,
                             sph_case_value *result);
 /* out[count], SI, at the points x[d][count] [m], called x, y, z, beside names[n]. */

@@ -1,5 +1,6 @@
-/* Case files: units against their definitions, expressions, the schema's defaults, and for every kind of broken file the
- * message that a user reads.  tests/data/broken/x.yml begin with "#: " and the message expected, without its path. */
+/* Case files: units against their definitions, expressions, the schema's defaults, and for every
+ * kind of broken file the message that a user reads.  tests/data/broken/x.yml begin with "#: "
+ * and the message expected, without its path. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
