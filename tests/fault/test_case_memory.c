@@ -1,0 +1,96 @@
+/* Every allocation of reading and building a case fails once, the k-th for every k: the answer
+ * is "out of memory", and nothing leaks (run under valgrind or with -fsanitize=address). */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "memory.h"
+#include "sphode.h"
+
+static long fail_at, calls; /* call number fail_at fails; 0: none does */
+
+static int fails(void) { return ++calls == fail_at; }
+
+/* All doors of memory.c: calls inside it are not seen by the linker. */
+void *__real_sph_memory_take(size_t count, size_t size);
+void *__wrap_sph_memory_take(size_t count, size_t size);
+void *__wrap_sph_memory_take(size_t count, size_t size)
+{
+  return fails() ? NULL : __real_sph_memory_take(count, size);
+}
+
+void *__real_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
+void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
+void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error)
+{
+  return __real_sph_memory_new(fails() ? SIZE_MAX : count, size, what, error);
+}
+
+int __real_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
+                           const char *what, sph_error *error);
+int __wrap_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
+                           const char *what, sph_error *error);
+int __wrap_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
+                           const char *what, sph_error *error)
+{
+  if (fails()) return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: %s", what);
+  return __real_sph_memory_grow(pointer, old_count, new_count, size, what, error);
+}
+
+char *__real_sph_memory_string(const char *text, sph_error *error);
+char *__wrap_sph_memory_string(const char *text, sph_error *error);
+char *__wrap_sph_memory_string(const char *text, sph_error *error)
+{
+  if (!fails()) return __real_sph_memory_string(text, error);
+  sph_error_set(error, SPH_ERR_MEMORY, "out of memory: a string");
+  return NULL;
+}
+
+static const char text[] =
+    "dimension: 2\nspacing: 5 cm\nparameters: {H: 0.2 m, T: 2 s}\n"
+    "groups:\n"
+    "  water: {kind: fluid, density: 1000, eos: {tait: {sound_speed: 10}}, shapes:\n"
+    "    [{box: {lower: [0, 0], upper: [H, H]}}], initial: {velocity: [x/T, -y/T]}}\n"
+    "  tank: {kind: wall, density: 1000, shapes: [{layers: {lower: [0, 0], upper: [H, H]}}],\n"
+    "    boundary: {motion: {velocity: [1, 0], slide: true}}}\n"
+    "terms: {continuity: , pressure: }\nrun: {end: 1}\n"
+    "compare: [{name: n, quantity: front, reference: {value: 1}}]\n";
+
+/* Whether the case was read and its simulation made. */
+static int read_and_build(sph_error *error)
+{
+  const char *const set[] = {"spacing=H/4", "kernel.h_over_dx=1.3"};
+  sph_case *c = sph_case_read_text("case.yml", text, strlen(text), 2, set, error);
+  sph_sim *sim = c ? sph_case_build(c, 1, error) : NULL;
+  int made = sim != NULL;
+  sph_sim_free(sim);
+  sph_case_free(c);
+  return made;
+}
+
+static void every_allocation_may_fail(void **state)
+{
+  (void)state;
+  for (fail_at = 1;; fail_at++) {
+    sph_error error = {0};
+    calls = 0;
+    int made = read_and_build(&error);
+    if (calls < fail_at) {
+      if (!made) fail_msg("%s", error.text);
+      break;
+    }
+    if (made) fail_msg("allocation %ld failed, and nobody told", fail_at);
+    if (!strstr(error.text, "out of memory")) fail_msg("allocation %ld: %s", fail_at, error.text);
+  }
+  assert_true(fail_at > 100);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_allocation_may_fail)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
