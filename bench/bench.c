@@ -63,6 +63,7 @@ int main(int argc, char **argv)
   sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 1});
   if (!options.json) printf("sphode %s, isa %s, one thread\n", sph_version(), sph_sim_isa(sim));
   sph_sim_free(sim);
+  bench_neighbors();
   bench_rhs();
   bench_integration();
   return 0;

@@ -10,6 +10,7 @@ int bench_wanted(const char *name);
 void bench_report(const char *name, const char *unit, double *values, int n);
 int bench_quick(void); /* --quick: small sizes */
 
+void bench_neighbors(void);   /* sort and list build */
 void bench_rhs(void);         /* right-hand sides */
 void bench_integration(void); /* time integration around the right-hand side */
 

@@ -227,7 +227,7 @@ int sph_sim_step(sph_sim *sim)
 {
   double begin = sph_clock();
   int status = sph_sim_prepare(sim);
-  if (!status) status = sph_sim_run_step(sim, INFINITY);
+  if (!status) status = sph_sim_run_step(sim, sim->time + 1e9 * sim->limit_cfl); /* no stop */
   if (sim) sim->seconds += sph_clock() - begin;
   return status;
 }

@@ -6,32 +6,74 @@
 #include "sim_rhs.h"
 #include "wall_pair.h"
 
-enum { PARALLEL_MIN = 2048, BLOCKS = 64 };
+enum { PARALLEL_MIN = 2048, PACKED = 256, BLOCKS = 64 };
 
-/* One record at sorted place s: see fluid_pair.h. */
-static void pack(const sph_evaluation *e, int g, long s, long i, double *record)
+/* What packing reads of one group. */
+typedef struct packing {
+  const sph_sim *sim;
+  sph_view view;
+  const int *order;
+  const double *wrap[3];   /* periodic boxes to subtract; NULL: not periodic */
+  double *const *wall_sum; /* of the extrapolation; NULL for fluids */
+  double *record;
+  long stride;
+} packing;
+
+static packing packing_of(const sph_evaluation *e, int g)
 {
   const sph_sim *sim = e->sim;
-  const sph_view *view = &e->view[g];
-  const sph_group *group = sim->group[g];
-  int dim = sim->dim;
-  double rho = view->rho[i], p = view->p[i];
+  packing k = {.sim = sim, .view = e->view[g], .order = sph_neighbors_order(sim->neighbors, g)};
+  for (int d = 0; d < sim->dim; d++) k.wrap[d] = sph_neighbors_wrap(sim->neighbors, g, d);
+  k.wall_sum = sim->group[g]->wall ? sim->sorted[g].sum : NULL;
+  k.record = sim->sorted[g].record;
+  k.stride = sim->sorted[g].stride;
+  return k;
+}
+
+static double position(const packing *k, int d, long i)
+{
+  return k->view.x[d][i] - (k->wrap[d] ? k->wrap[d][i] * k->sim->length[d] : 0);
+}
+
+/* The velocity that viscous terms see of a wall particle: 2 v - <v_fluid>. */
+static double slip_velocity(const packing *k, int d, long s, long i)
+{
+  double W = k->wall_sum[SPH_WALL_W][s], v = k->view.v[d][i];
+  return W > 0 ? 2 * v - k->wall_sum[SPH_WALL_V + d][s] / W : v;
+}
+
+/* One record, at sorted place s: see fluid_pair.h. */
+static inline void pack(const packing *k, int dim, long s)
+{
+  const sph_view *view = &k->view;
+  const long i = k->order[s];
+  double *record = k->record + s * k->stride;
+  const double rho = view->rho[i], p = view->p[i], inverse_rho = 1 / rho;
   for (int d = 0; d < dim; d++) {
-    const double *wrap = sph_neighbors_wrap(sim->neighbors, g, d);
-    record[d] = view->x[d][i] - (wrap ? wrap[i] * sim->length[d] : 0);
+    record[d] = position(k, d, i);
     record[slot_v(dim) + d] = view->v[d][i];
   }
   record[slot_rho(dim)] = rho;
-  record[slot_p(dim)] = sim->loop_terms & SPH_FORM_C2 ? p : p / (rho * rho);
+  record[slot_p(dim)] = k->sim->loop_terms & SPH_FORM_C2 ? p : p * inverse_rho * inverse_rho;
   record[slot_c(dim)] = view->c[i];
-  record[slot_V(dim)] = view->m[i] / rho;
-  int extra = sim->sorted[g].stride > slot_extra(dim);
-  for (int d = 0; extra && d < dim; d++) {
-    double W = group->wall ? sim->sorted[g].sum[SPH_WALL_W][s] : 0;
-    double v = W > 0 ? sim->sorted[g].sum[SPH_WALL_V + d][s] / W : view->v[d][i];
-    record[slot_extra(dim) + d] = group->wall ? 2 * view->v[d][i] - v : 0;
+  record[slot_V(dim)] = view->m[i] * inverse_rho;
+  if (k->stride <= slot_extra(dim)) return;
+  for (int d = 0; d < dim; d++)
+    record[slot_extra(dim) + d] = k->wall_sum ? slip_velocity(k, d, s, i) : 0;
+  if (k->sim->loop_terms & SPH_THERMAL) record[slot_u(dim)] = view->u ? view->u[i] : 0;
+}
+
+static void pack_range(const packing *k, long begin, long end)
+{
+  const int dim = k->sim->dim;
+  for (long s = begin; s < end; s++) {
+    if (dim == 3)
+      pack(k, 3, s);
+    else if (dim == 2)
+      pack(k, 2, s);
+    else
+      pack(k, 1, s);
   }
-  if (sim->loop_terms & SPH_THERMAL) record[slot_u(dim)] = view->u ? view->u[i] : 0;
 }
 
 /* The lanes behind the last particle hold copies of it: finite, and never stored. */
@@ -47,26 +89,19 @@ void sph_sim_pairs_pack(sph_evaluation *e, int walls)
   sph_sim *sim = e->sim;
   for (int g = 0; g < sim->groups; g++) {
     if (sim->group[g]->wall != walls) continue;
-    sph_sorted *sorted = &sim->sorted[g];
-    const int *order = sph_neighbors_order(sim->neighbors, g);
-    long n = e->view[g].n;
+    const packing k = packing_of(e, g);
+    const long n = e->view[g].n;
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
-    for (long s = 0; s < n; s++) pack(e, g, s, order[s], sorted->record + s * sorted->stride);
-    pack_tail(sorted, n);
+    for (long s = 0; s < n; s += PACKED) pack_range(&k, s, s + PACKED < n ? s + PACKED : n);
+    pack_tail(&sim->sorted[g], n);
   }
 }
 
 void sph_sim_pairs_pack_positions(const sph_evaluation *e, int g)
 {
-  const sph_sim *sim = e->sim;
-  const sph_sorted *sorted = &sim->sorted[g];
-  const int *order = sph_neighbors_order(sim->neighbors, g);
-  for (int d = 0; d < sim->dim; d++) {
-    const double *wrap = sph_neighbors_wrap(sim->neighbors, g, d), *x = e->view[g].x[d];
-    for (long s = 0; s < e->view[g].n; s++)
-      sorted->record[s * sorted->stride + d] =
-          x[order[s]] - (wrap ? wrap[order[s]] * sim->length[d] : 0);
-  }
+  const packing k = packing_of(e, g);
+  for (long s = 0; s < e->view[g].n; s++)
+    for (int d = 0; d < e->sim->dim; d++) k.record[s * k.stride + d] = position(&k, d, k.order[s]);
   pack_tail(&e->sim->sorted[g], e->view[g].n);
 }
 
