@@ -151,7 +151,7 @@ static void a_run_without_a_value_is_not_near(void **state)
 {
   (void)state;
   make(0, 0);
-  for (int k = 0; k < RUN; k++) run_y[k] = NAN;
+  for (int k = 250; k < 350; k++) run_y[k] = NAN; /* around one point of the reference */
   static const char *const norms[] = {"rms", "l1", "max"};
   for (int k = 0; k < 3; k++) {
     sph_case_distance d = plain(norms[k]);
