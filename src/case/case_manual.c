@@ -10,7 +10,7 @@
 static const char head[] =
     "# Case files\n\n"
     "A case file tells a simulation, its outputs and what it is compared with. This page is made "
-    "from the table\nthat checks case files (`sphode info case --markdown`).\n\n"
+    "from the table\nthat checks case files (`sphode info case`).\n\n"
     "```\nsphode check case.yml    reads it, tells what it would cost, runs nothing\n"
     "sphode run case.yml      runs it\n```\n\n"
     "The format is [YAML](https://yaml.org): `key: value` a line, indented below what it belongs "

@@ -287,7 +287,7 @@ static void the_manual_is_current(void **state)
   size_t n = fread(kept, 1, (size_t)length + 1, file);
   fclose(file);
   if (n != (size_t)length || memcmp(made, kept, n))
-    fail_msg("docs/case-files.md is old: sphode info case --markdown >docs/case-files.md");
+    fail_msg("docs/case-files.md is old: sphode info case >docs/case-files.md");
   free(kept);
   free(made);
 }
