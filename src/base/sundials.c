@@ -120,7 +120,7 @@ static int adapt(N_Vector y, sunrealtype t, sunrealtype h1, sunrealtype h2, sunr
 int sph_sundials_control(void *memory, SUNContext context, sph_sundials_controller *controller)
 {
   (void)context;
-  return ERKStepSetAdaptivityFn(memory, adapt, controller);
+  return ERKStepSetErrorBias(memory, 1) || ERKStepSetAdaptivityFn(memory, adapt, controller);
 }
 
 void sph_sundials_control_free(sph_sundials_controller *controller) { controller->object = NULL; }

@@ -14,20 +14,27 @@ enum {
   BLOCK = 512           /* entries of a linear combination that stay in the first cache */
 };
 
-/* What a vector shares with all its clones. */
+typedef struct content {
+  struct shared *shared;
+  double *data; /* [layout->length], owned; NULL in an empty clone */
+  int lost;     /* no memory: see shared */
+} content;
+
+/* What a vector shares with all its clones.
+ *
+ * SUNDIALS 6 writes to what a clone returns without looking at it.  A clone without memory is
+ * therefore a vector without entries, and while there is one no operation does anything: whoever
+ * cloned asks sph_nvector_lost. */
 typedef struct shared {
   const sph_layout *layout; /* borrowed */
   int threads, chunks;
-  long vectors; /* that use it; the last one frees it */
-  long *start;  /* [chunks] first entry */
-  int *segment; /* [chunks] */
-  double *part; /* [chunks] partial results of the reduction at work */
+  long vectors;  /* that use it; the last one frees it */
+  long *start;   /* [chunks] first entry */
+  int *segment;  /* [chunks] */
+  double *part;  /* [chunks] partial results of the reduction at work */
+  long lost;     /* clones alive without memory */
+  content spare; /* of those that did not even get their content */
 } shared;
-
-typedef struct content {
-  shared *shared;
-  double *data; /* [layout->length], owned; NULL in an empty clone */
-} content;
 
 /* What a kernel gets; members that an operation does not need are zero. */
 typedef struct operands {
@@ -56,6 +63,7 @@ static long chunk_end(const shared *s, int k)
 static void each(N_Vector v, void (*kernel)(const operands *o, long from, long to), operands o)
 {
   const shared *s = of(v)->shared;
+  if (s->lost) return;
 #pragma omp parallel for num_threads(s->threads) \
     schedule(static) if (s->layout->entries >= PARALLEL_MIN)
   for (int k = 0; k < s->chunks; k++) kernel(&o, s->start[k], chunk_end(s, k));
@@ -66,6 +74,7 @@ static const shared *parts(N_Vector v, double (*kernel)(const operands *o, long 
                            operands o)
 {
   const shared *s = of(v)->shared;
+  if (s->lost) return s;
 #pragma omp parallel for num_threads(s->threads) \
     schedule(static) if (s->layout->entries >= PARALLEL_MIN)
   for (int k = 0; k < s->chunks; k++) s->part[k] = kernel(&o, s->start[k], chunk_end(s, k));
@@ -364,10 +373,14 @@ static shared *shared_create(const sph_layout *layout, int threads, sph_error *e
 static void destroy(N_Vector v)
 {
   if (!v) return;
-  if (of(v)) {
-    shared_release(of(v)->shared);
-    sph_memory_free(of(v)->data);
-    sph_memory_free(v->content);
+  content *c = of(v);
+  if (c) {
+    shared *s = c->shared;
+    int owned = !s || c != &s->spare;
+    if (s && c->lost) s->lost--;
+    sph_memory_free(c->data);
+    if (owned) sph_memory_free(c);
+    shared_release(s);
   }
   v->content = NULL;
   N_VFreeEmpty(v);
@@ -375,15 +388,20 @@ static void destroy(N_Vector v)
 
 static N_Vector clone_empty(N_Vector w)
 {
+  shared *s = of(w)->shared;
   N_Vector v = N_VNewEmpty(w->sunctx);
-  content *c = sph_memory_take(1, sizeof *c);
-  if (!v || !c || N_VCopyOps(w, v)) {
-    sph_memory_free(c);
+  if (!v || N_VCopyOps(w, v)) {
     if (v) N_VFreeEmpty(v);
     return NULL;
   }
-  c->shared = of(w)->shared;
-  c->shared->vectors++;
+  content *c = sph_memory_take(1, sizeof *c);
+  if (!c) {
+    s->lost++;
+    c = &s->spare;
+    *c = (content){.lost = 1};
+  }
+  c->shared = s;
+  s->vectors++;
   v->content = c;
   return v;
 }
@@ -391,10 +409,23 @@ static N_Vector clone_empty(N_Vector w)
 static N_Vector clone(N_Vector w)
 {
   N_Vector v = clone_empty(w);
-  if (!v) return NULL;
-  of(v)->data = sph_memory_take((size_t)of(w)->shared->layout->length, sizeof(double));
-  if (of(v)->data) return v;
+  if (!v || of(v)->lost) return v;
+  shared *s = of(v)->shared;
+  of(v)->data = sph_memory_take((size_t)s->layout->length, sizeof(double));
+  of(v)->lost = !of(v)->data;
+  s->lost += of(v)->lost;
+  return v;
+}
+
+long sph_nvector_lost(N_Vector v) { return of(v)->shared->lost; }
+
+N_Vector sph_nvector_clone(N_Vector w, const char *what, sph_error *error)
+{
+  N_Vector v = clone(w);
+  if (v && !of(v)->lost) return v;
   destroy(v);
+  sph_error_set(error, SPH_ERR_MEMORY, "out of memory: %s, %.0f bytes", what,
+                8.0 * (double)of(w)->shared->layout->length);
   return NULL;
 }
 

@@ -12,6 +12,12 @@
  * steps), entries zero.  NULL on failure (recorded). */
 N_Vector sph_nvector_create(const sph_layout *layout, int threads, SUNContext context,
                             sph_error *error);
+/* A clone of w with entries zero, or NULL (recorded); N_VClone instead gives a vector without
+ * entries. */
+N_Vector sph_nvector_clone(N_Vector w, const char *what, sph_error *error);
+/* How many such vectors live; while there are any, no operation on v and its relatives does
+ * anything. */
+long sph_nvector_lost(N_Vector v);
 double *sph_nvector_data(N_Vector v);
 const sph_layout *sph_nvector_layout(N_Vector v);
 #endif

@@ -7,6 +7,7 @@
 #include "integrator_data.h"
 #include "integrator_table.h"
 #include "memory.h"
+#include "nvector.h"
 
 static const double CLOSE = 1e-6; /* relative: such step sizes are the same */
 
@@ -72,7 +73,7 @@ sph_integrator *sph_integrator_create(const sph_integrator_def *def, const sph_p
   it->y = y;
   it->time = it->previous = t;
   it->cap = INFINITY;
-  it->before = N_VClone(y);
+  it->before = sph_nvector_clone(y, "the state before a step", error);
   it->stepper = sph_integrator_table_erk(row) == ARKODE_ERK_NONE ? &sph_integrator_leapfrog
                                                                  : &sph_integrator_erk;
   if (!it->before) status = SPH_ERR_MEMORY;

@@ -7,6 +7,7 @@
 #include "integrator_data.h"
 #include "integrator_table.h"
 #include "memory.h"
+#include "nvector.h"
 
 static const double CLOSE = 1e-6; /* relative: such step sizes are the same */
 
@@ -22,15 +23,20 @@ typedef struct erk {
   char text[400]; /* what ARKODE said last */
 } erk;
 
+/* ARKODE goes on with vectors that got no memory: their operations do nothing, and here it ends.
+ * */
 static int rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *data)
 {
-  return sph_integrator_rhs(data, t, y, ydot);
+  sph_integrator *it = data;
+  if (sph_nvector_lost(y)) return it->rhs_status = SPH_ERR_MEMORY;
+  return sph_integrator_rhs(it, t, y, ydot);
 }
 
 /* 1 / (tolerance scale); without error control any positive weights do. */
 static int weigh(N_Vector y, N_Vector weight, void *data)
 {
   sph_integrator *it = data;
+  if (sph_nvector_lost(y)) return it->rhs_status = SPH_ERR_MEMORY;
   if (!it->adaptive || !it->problem.weights) {
     N_VConst(it->adaptive ? 1 / it->def.tolerance : 1, weight);
     return 0;
@@ -114,10 +120,11 @@ static int create(sph_integrator *it, SUNContext context)
   own->context = context;
   own->fresh = 1;
   own->memory = ERKStepCreate(rhs, it->time, it->y, context);
-  if (!own->memory) return SPH_ERR_MEMORY;
+  if (!own->memory || sph_nvector_lost(it->y)) return SPH_ERR_MEMORY;
   own->listener = (sph_sundials_listener){.listen = listen, .ctx = own};
   own->listening = !sph_sundials_listen(own->memory, context, &own->listener);
-  return own->listening && !configure(it, own) ? SPH_OK : SPH_ERR_MEMORY;
+  return own->listening && !configure(it, own) && !sph_nvector_lost(it->y) ? SPH_OK
+                                                                           : SPH_ERR_MEMORY;
 }
 
 static void release(sph_integrator *it)
@@ -134,6 +141,7 @@ static void release(sph_integrator *it)
 static int outcome(sph_integrator *it, int flag)
 {
   const erk *own = it->own;
+  if (sph_nvector_lost(it->y)) return sph_integrator_fail(it, SPH_ERR_MEMORY, "out of memory");
   if (flag >= 0) return SPH_OK;
   if (it->rhs_status) return it->rhs_status;
   int status = flag == ARK_MEM_FAIL ? SPH_ERR_MEMORY : SPH_ERR_STEP;
@@ -182,7 +190,7 @@ static int attempt(sph_integrator *it, sph_attempt *a, double t_stop)
   int flag = prepare(it, a, &h);
   if (flag >= 0) flag = SPH_ERK(SetStopTime)(own->memory, t_stop);
   if (flag >= 0) flag = SPH_ERK(Evolve)(own->memory, t_stop, it->y, &t, ARK_ONE_STEP);
-  if (flag < 0) {
+  if (flag < 0 || sph_nvector_lost(it->y)) {
     a->h = fmin(h, left);
     return outcome(it, flag);
   }

@@ -24,8 +24,8 @@ static int create(sph_integrator *it, SUNContext context)
   (void)context;
   leapfrog *own = it->own = SPH_NEW(leapfrog, 1, "leapfrog", it->problem.error);
   if (!own) return SPH_ERR_MEMORY;
-  own->f0 = N_VClone(it->y);
-  own->f1 = N_VClone(it->y);
+  own->f0 = sph_nvector_clone(it->y, "rates", it->problem.error);
+  own->f1 = sph_nvector_clone(it->y, "rates", it->problem.error);
   return own->f0 && own->f1 ? SPH_OK : SPH_ERR_MEMORY;
 }
 

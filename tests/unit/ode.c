@@ -61,6 +61,24 @@ static int made(double t, N_Vector state, N_Vector rate, void *ctx)
   return broken(ctx);
 }
 
+static void oscillator_exact(double t, double *y)
+{
+  memset(y, 0, ODE_LENGTH * sizeof *y);
+  y[ODE_X] = cos(t);
+  y[ODE_U] = -sin(t);
+}
+
+static int oscillator(double t, N_Vector state, N_Vector rate, void *ctx)
+{
+  const double *y = sph_nvector_data(state);
+  double *f = sph_nvector_data(rate);
+  (void)t;
+  N_VConst(0, rate);
+  f[ODE_X] = y[ODE_U];
+  f[ODE_U] = -y[ODE_X];
+  return broken(ctx);
+}
+
 static int weights(N_Vector y, N_Vector weight, void *ctx)
 {
   (void)y, (void)ctx;
@@ -121,6 +139,13 @@ void ode_made(ode *o)
   make(o);
   o->problem.rhs = made;
   o->exact = made_exact;
+}
+
+void ode_oscillator(ode *o)
+{
+  make(o);
+  o->problem.rhs = oscillator;
+  o->exact = oscillator_exact;
 }
 
 void ode_start(ode *o, const sph_integrator_def *def)

@@ -28,6 +28,8 @@ typedef struct ode {
 void ode_kepler(ode *o);
 /* x'' with forces of velocity and of q, made so that x = sin t, y = cos t, q = 2 + sin 2t. */
 void ode_made(ode *o);
+/* x = cos t, all else but its velocity zero. */
+void ode_oscillator(ode *o);
 /* Creates the integrator at t = 0; fails the test if it cannot. */
 void ode_start(ode *o, const sph_integrator_def *def);
 /* Steps to t; returns the status. */

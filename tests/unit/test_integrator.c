@@ -223,6 +223,27 @@ static void error_control_holds_the_tolerance(void **state)
                      0.05); /* steps ~ tolerance^(-1/3) */
 }
 
+/* The estimate of Bogacki & Shampine (1989) for y' = z/h y is y (z^3 + z^4)/48, so that for the
+ * oscillator its rms over five entries is h^3 sqrt(1 + h^2)/(48 sqrt 5); the controller settles
+ * at 0.9^3 of the tolerance. */
+static void the_step_size_settles_where_it_should(void **state)
+{
+  const double tolerance = 1e-6;
+  (void)state;
+  ode o;
+  ode_oscillator(&o);
+  o.problem.limits = NULL;
+  ode_start(&o, &(sph_integrator_def){.tolerance = tolerance});
+  assert_int_equal(ode_run(&o, 5), SPH_OK);
+  for (int k = 0; k < 100; k++) {
+    assert_int_equal(sph_integrator_step(o.it, 100), SPH_OK);
+    double h = sph_integrator_stats(o.it)->dt_last;
+    double estimate = h * h * h * sqrt(1 + h * h) / (48 * sqrt(5));
+    if (k > 20) assert_float_equal(estimate / tolerance, 0.9 * 0.9 * 0.9, 0.01);
+  }
+  ode_end(&o);
+}
+
 static void fixed_largest_and_smallest_steps(void **state)
 {
   (void)state;
@@ -437,6 +458,7 @@ int main(void)
       cmocka_unit_test(stop_times_are_exact),
       cmocka_unit_test(limits_bind_and_are_recorded),
       cmocka_unit_test(error_control_holds_the_tolerance),
+      cmocka_unit_test(the_step_size_settles_where_it_should),
       cmocka_unit_test(fixed_largest_and_smallest_steps),
       cmocka_unit_test(a_failed_evaluation_is_repeated),
       cmocka_unit_test(lasting_failure_stops_at_the_last_good_state),

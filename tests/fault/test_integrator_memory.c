@@ -1,0 +1,95 @@
+/* Every allocation of vectors and integrators fails once: it is told, and nothing leaks (under
+ * ASan or valgrind). */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "integrator.h"
+#include "memory.h"
+#include "nvector.h"
+
+static long fail_at, calls; /* call number fail_at fails; 0: none does */
+
+/* Both doors of memory.c that are used here: calls inside it are not seen by the linker. */
+void *__real_sph_memory_take(size_t count, size_t size);
+void *__wrap_sph_memory_take(size_t count, size_t size);
+void *__wrap_sph_memory_take(size_t count, size_t size)
+{
+  return ++calls == fail_at ? NULL : __real_sph_memory_take(count, size);
+}
+
+void *__real_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
+void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
+void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error)
+{
+  return __real_sph_memory_new(++calls == fail_at ? SIZE_MAX : count, size, what, error);
+}
+
+static int decay(double t, N_Vector y, N_Vector rate, void *ctx)
+{
+  (void)t, (void)ctx;
+  N_VScale(-1, y, rate);
+  return SPH_OK;
+}
+
+static int weights(N_Vector y, N_Vector weight, void *ctx)
+{
+  (void)y, (void)ctx;
+  N_VConst(1, weight);
+  return SPH_OK;
+}
+
+/* y' = -y to t = 1; the status of whatever failed. */
+static int run(const sph_integrator_def *def)
+{
+  sph_segment segment = {.n = 3, .capacity = 8, .role = SPH_ROLE_OTHER, .partner = -1};
+  const sph_layout layout = {8, 3, 1, &segment};
+  sph_error error = {0};
+  const sph_problem problem = {.threads = 1, .rhs = decay, .weights = weights, .error = &error};
+  SUNContext context = sph_sundials_context(&error);
+  N_Vector y = sph_nvector_create(&layout, 1, context, &error);
+  sph_integrator *it = NULL;
+  int status = error.status;
+  if (y) {
+    N_VConst(1, y);
+    it = sph_integrator_create(def, &problem, 0, y, context, &error);
+    status = error.status;
+  }
+  while (it && !status && sph_integrator_time(it) < 1) status = sph_integrator_step(it, 1);
+  if (!status && !(fabs(sph_nvector_data(y)[2] - exp(-1)) < 1e-2)) status = SPH_RETRY;
+  assert_int_equal(error.status, status);
+  assert_true(status == SPH_OK || error.text[0]);
+  sph_integrator_free(it);
+  if (y) N_VDestroy(y);
+  sph_sundials_context_free(context);
+  return status;
+}
+
+static void each_allocation_fails_once(void **state)
+{
+  static const sph_integrator_def def[] = {{.method = "leapfrog", .dt_max = 0.05},
+                                           {.dt_max = 0.05},
+                                           {.tolerance = -1, .dt_max = 0.05},
+                                           {.method = "erk:zonneveld-5-3-4"}};
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    fail_at = calls = 0;
+    assert_int_equal(run(&def[k]), SPH_OK);
+    long all = calls;
+    assert_true(all >= 10);
+    for (fail_at = 1; fail_at <= all; fail_at++) {
+      calls = 0;
+      assert_int_equal(run(&def[k]), SPH_ERR_MEMORY);
+    }
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(each_allocation_fails_once)};
+  return cmocka_run_group_tests_name("integrator_memory", tests, NULL, NULL);
+}
