@@ -87,7 +87,7 @@ double sph_kernel_w(const sph_kernel *kernel, int dim, double r, double h)
 double sph_kernel_dwdr(const sph_kernel *kernel, int dim, double r, double h)
 {
   double q = r / h;
-  return scale(kernel, dim, h, 1) * (q * shape_f(kernel, dim, q));
+  return scale(kernel, dim, h, 1) * (q * shape_f(kernel, dim, q)) + 0.0; /* no minus zero */
 }
 
 double sph_kernel_f(const sph_kernel *kernel, int dim, double r, double h)
