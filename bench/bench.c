@@ -1,7 +1,7 @@
 /* bench -- measures this build on this machine: bench [--json] [--quick] [--filter TEXT]
  *
- * Rates are in million directed pairs inside the support per second of one core's CPU time; ratios inside one run are
- * worth more than any rate. */
+ * Rates are in million directed pairs inside the support per second of one core's CPU time; ratios
+ * inside one run are worth more than any rate. */
 #define _POSIX_C_SOURCE 200809L
 #include "bench.h"
 

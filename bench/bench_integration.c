@@ -1,4 +1,5 @@
-/* Time integration around the right-hand side: seconds of a step outside of it over those inside, in percent. */
+/* Time integration around the right-hand side: seconds of a step outside of it over those inside,
+ * in percent. */
 #include <sphode.h>
 #include <stdio.h>
 

@@ -1,5 +1,6 @@
-/* Sorting points into cells and building the exact list of runs, in the same unit as the pair loops: million directed
- * pairs within reach a second.  A list that is rebuilt in every right-hand side costs pair loop + sort + build. */
+/* Sorting points into cells and building the exact list of runs, in the same unit as the pair
+ * loops: million directed pairs within reach a second.  A list that is rebuilt in every right-hand
+ * side costs pair loop + sort + build. */
 #include <sphode.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-/* Whole right-hand sides: pack, pair loop, rates, without and with a sort and list build in each. */
+/* Whole right-hand sides: pack, pair loop, rates, without and with a sort and list build in
+ * each. */
 #include <sphode.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,7 +22,8 @@ static double noise(unsigned *state)
   return (double)(*state >> 8) / (1 << 24) - 0.5;
 }
 
-/* A jittered, unaligned, periodic lattice with a smooth flow: nothing is aligned with the cells of the search. */
+/* A jittered, unaligned, periodic lattice with a smooth flow: nothing is aligned with the cells of
+ * the search. */
 static sph_sim *make(const setup *s, double skin)
 {
   double dx = 1.0 / (double)s->across, c0 = 10;
@@ -53,7 +55,8 @@ static sph_sim *make(const setup *s, double skin)
   return sim;
 }
 
-/* Million pairs a second of full right-hand sides; rebuild: move all particles by far more than the skin before each. */
+/* Million pairs a second of full right-hand sides; rebuild: move all particles by far more than the
+ * skin before each. */
 static void measure(const setup *s, int rebuild)
 {
   char name[80];

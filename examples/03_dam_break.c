@@ -1,6 +1,7 @@
 /* 03_dam_break -- a column of water falls: the first whole simulation.
  *
- * Equations  d rho/dt = -rho div v + delta diffusion,  p = p(rho) (Tait, c0 ten times the water's speed),
+ * Equations  d rho/dt = -rho div v + delta diffusion,
+ *            p = p(rho) (Tait, c0 ten times the water's speed),
  *            dv/dt = -grad p/rho + artificial viscosity + g
  * Reference  B. Buchner (2002), Green water on ship-type offshore structures: column 2H x H, tank
  *            5.366 H long; A. Ritter (1892): a front on a dry bed is slower than 2 sqrt(g H)

@@ -1,11 +1,11 @@
 /* 05_own_term -- a term of your own: the Coriolis force of a rotating frame.
  *
  * Equations  a_i = -2 Omega x v_i        (Omega along z; built-in terms use the same struct)
- * Reference  inertial oscillation: a free patch moving at v0 turns clockwise through circles of radius v0/(2 Omega),
- *            period pi/Omega
+ * Reference  inertial oscillation: a free patch moving at v0 turns clockwise through circles of
+ *            radius v0/(2 Omega), period pi/Omega
  * Run        ./05_own_term
- * Check      after a quarter of a period the patch moves at right angles, with the same speed; its centre has moved by
- *            (R, -R), R = v0/(2 Omega) */
+ * Check      after a quarter of a period the patch moves at right angles, with the same speed; its
+ *            centre has moved by (R, -R), R = v0/(2 Omega) */
 #include <sphode.h>
 #include <stdio.h>
 

@@ -27,8 +27,8 @@ int sph_prog_plot(const prog_options *o);
 /* "sphode: ..." on stderr; returns status. */
 int sph_prog_error(int status, const char *format, ...) SPH_PRINTF(2, 3);
 
-/* Makes a directory ready for a run and holds it (nobody else writes there); a file descriptor, or -1, told.
- * A run that ended stays unless force; one that was killed is written over. */
+/* Makes a directory ready for a run and holds it (nobody else writes there); a file descriptor, or
+ * -1, told.  A run that ended stays unless force; one that was killed is written over. */
 int sph_prog_directory_take(const char *directory, int force);
 
 typedef struct prog_progress {

@@ -7,14 +7,15 @@
 extern "C" {
 #endif
 
-/* Rigid motion of a wall at time t [s]: displacement from the start [m], velocity [m/s], acceleration [m/s^2].
- * A lid that slides in its own plane has a velocity and no displacement. */
+/* Rigid motion of a wall at time t [s]: displacement from the start [m], velocity [m/s],
+ * acceleration [m/s^2].  A lid that slides in its own plane has a velocity and no displacement. */
 typedef void sph_motion(void *ctx, double t, double displacement[3], double velocity[3],
                         double acceleration[3]);
 
 typedef struct sph_boundary {
   const char *name; /* "adami" */
-  int no_slip; /* 1: viscous terms see v_w = 2 v_prescribed - <v_fluid>; 0: walls take no part in them */
+  int no_slip; /* 1: viscous terms see v_w = 2 v_prescribed - <v_fluid>; 0: walls take no part in
+                  them */
   int tension; /* 1: wall pressure may be negative; 0: p_w >= 0 (thin films go wrong otherwise) */
   sph_motion *motion;   /* NULL: at rest */
   void *ctx;            /* the user's; borrowed unless free is given */

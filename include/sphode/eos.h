@@ -1,7 +1,7 @@
 /* sphode/eos.h -- equations of state p(rho, u), c(rho, u); equations.md section 4.
  *
- * A built-in one and a user's own are the same struct, returned and copied by value; it is checked where it is
- * attached (sph_group_set_eos), so that the error sticks to the simulation. */
+ * A built-in one and a user's own are the same struct, returned and copied by value; it is checked
+ * where it is attached (sph_group_set_eos), so that the error sticks to the simulation. */
 #ifndef SPHODE_EOS_H
 #define SPHODE_EOS_H
 #include "sphode/base.h"
@@ -30,14 +30,17 @@ struct sph_eos {
   void (*free)(void *); /* called once with ctx when the simulation lets go of it; may be NULL */
 };
 
-/* Tait-Cole: p = B [(rho/rho0)^gamma - 1] + p_b, B = rho0 c0^2/gamma, c^2 = c0^2 (rho/rho0)^(gamma-1). */
+/* Tait-Cole: p = B [(rho/rho0)^gamma - 1] + p_b, B = rho0 c0^2/gamma,
+ * c^2 = c0^2 (rho/rho0)^(gamma-1). */
 SPH_API sph_eos sph_eos_tait(double rho0, double c0, double gamma);
-/* Linear: p = max(c0^2 (rho - rho0) + p_b, p_min); c = c0, 0 on the cut.  p_min = -INFINITY: no cut. */
+/* Linear: p = max(c0^2 (rho - rho0) + p_b, p_min); c = c0, 0 on the cut.  p_min = -INFINITY: no
+ * cut. */
 SPH_API sph_eos sph_eos_linear(double rho0, double c0, double p_min);
 /* Ideal gas: p = (gamma - 1) rho u, c^2 = gamma (gamma - 1) u. */
 SPH_API sph_eos sph_eos_ideal_gas(double gamma);
 
-/* Names of the built-in ones, NULL at the end of the list: for (k = 0; (name = sph_eos_name(k)); k++). */
+/* Names of the built-in ones, NULL at the end of the list: for (k = 0; (name = sph_eos_name(k));
+ * k++). */
 SPH_API const char *sph_eos_name(int k);
 /* One line: the formula of a built-in one; NULL for an unknown name. */
 SPH_API const char *sph_eos_formula(const char *name);

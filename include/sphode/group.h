@@ -1,7 +1,7 @@
 /* sphode/group.h -- a group: a named set of particles of one kind.
  *
- * Groups belong to their simulation.  Setters return nothing: the first failure sticks to the simulation.  A NULL
- * group (from a failed predecessor) flows through. */
+ * Groups belong to their simulation.  Setters return nothing: the first failure sticks to the
+ * simulation.  A NULL group (from a failed predecessor) flows through. */
 #ifndef SPHODE_GROUP_H
 #define SPHODE_GROUP_H
 #include "sphode/base.h"
@@ -23,8 +23,8 @@ SPH_API sph_group *sph_group_create(sph_sim *sim, const char *name, const char *
 SPH_API void sph_group_add_box(sph_group *group, const double *lo, const double *hi, double rho0);
 /* Ball: the points (k + 1/2) dx of the lattice closer than radius to centre. */
 SPH_API void sph_group_add_ball(sph_group *group, const double *centre, double radius, double rho0);
-/* Layers as thick as the support around the box [lo, hi], outside it; open names sides left out, as "y+ x-"
- * (NULL or "": none).  Corners belong to the layers. */
+/* Layers as thick as the support around the box [lo, hi], outside it; open names sides left out, as
+ * "y+ x-" (NULL or "": none).  Corners belong to the layers. */
 SPH_API void sph_group_add_layers(sph_group *group, const double *lo, const double *hi,
                                   const char *open, double rho0);
 /* Any points: x[d][n] [m]. */
@@ -36,7 +36,8 @@ SPH_API sph_group *sph_group_box(sph_sim *sim, const char *name, const double *l
 SPH_API sph_group *sph_group_walls(sph_sim *sim, const char *name, const double *lo,
                                    const double *hi, double rho0);
 
-/* The equation of state of a fluid; of a wall: that of the fluid it holds (the default: the first fluid's). */
+/* The equation of state of a fluid; of a wall: that of the fluid it holds (the default: the first
+ * fluid's). */
 SPH_API void sph_group_set_eos(sph_group *group, sph_eos eos);
 SPH_API void sph_group_set_boundary(sph_group *group, sph_boundary boundary);
 
@@ -46,21 +47,23 @@ SPH_API long sph_group_count(const sph_group *group);         /* particles */
 SPH_API const sph_eos *sph_group_eos(const sph_group *group); /* NULL: none yet */
 SPH_API int sph_group_thermal(const sph_group *group); /* its internal energy is integrated */
 
-/* One component of a field, [count]: read it, or write it before the run or between steps (then call
- * sph_sim_changed).  Valid until the next step; NULL: no such field or component.  Derived fields (pressure,
- * sound_speed) are those of the state shown. */
+/* One component of a field, [count]: read it, or write it before the run or between steps (then
+ * call sph_sim_changed).  Valid until the next step; NULL: no such field or component.  Derived
+ * fields (pressure, sound_speed) are those of the state shown. */
 SPH_API const double *sph_group_read(const sph_group *group, const char *field, int component);
 SPH_API double *sph_group_write(sph_group *group, const char *field, int component);
-/* Time derivative of an integrated field ("velocity": accelerations) at the last sph_sim_evaluate, [count]. */
+/* Time derivative of an integrated field ("velocity": accelerations) at the last sph_sim_evaluate,
+ * [count]. */
 SPH_API const double *sph_group_rate(const sph_group *group, const char *field, int component);
 /* Particle numbers, unique in the simulation, constant: [count]. */
 SPH_API const long *sph_group_ids(const sph_group *group);
 
-/* Sets density (and so pressure) of a fluid at rest under gravity g [m/s^2] below the free surface at height
- * `surface` along axis (0, 1, 2) [m]: the exact column of its equation of state; keeps volumes, scales masses. */
+/* Sets density (and so pressure) of a fluid at rest under gravity g [m/s^2] below the free surface
+ * at height `surface` along axis (0, 1, 2) [m]: the exact column of its equation of state; keeps
+ * volumes, scales masses. */
 SPH_API void sph_group_set_hydrostatic(sph_group *group, int axis, double surface, double g);
-/* Sets the pressure of every particle [count] through the inverse equation of state; keeps volumes, scales masses.
- * Thermal groups: sets u at the present density instead. */
+/* Sets the pressure of every particle [count] through the inverse equation of state; keeps volumes,
+ * scales masses.  Thermal groups: sets u at the present density instead. */
 SPH_API void sph_group_set_pressure(sph_group *group, const double *p);
 
 #ifdef __cplusplus

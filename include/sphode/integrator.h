@@ -12,12 +12,12 @@ typedef struct sph_integrator_def {
       *method; /* "erk:<ARKODE table>", "leapfrog", "verlet"; NULL: "erk:bogacki-shampine-4-2-3" */
   double
       cfl; /* fraction of the scheme's stability limit; 0: 0.8 with error control, 0.35 without */
-  double
-      tolerance; /* relative to the physical scales of each field; 0: 1e-2; < 0: no error control (CFL alone) */
-  double dt_max;   /* [s]; 0: no limit */
-  double dt_min;   /* a smaller step is a failure [s]; 0: 1e-9 of the first limit */
-  double dt_fixed; /* > 0: this step always (limits are recorded, not obeyed) [s] */
-  int retries;     /* halvings after a step that is not admissible before giving up; 0: 12 */
+  double tolerance; /* relative to the physical scales of each field; 0: 1e-2; < 0: no error control
+                       (CFL alone) */
+  double dt_max;    /* [s]; 0: no limit */
+  double dt_min;    /* a smaller step is a failure [s]; 0: 1e-9 of the first limit */
+  double dt_fixed;  /* > 0: this step always (limits are recorded, not obeyed) [s] */
+  int retries;      /* halvings after a step that is not admissible before giving up; 0: 12 */
 } sph_integrator_def;
 
 /* What one integrator is: a row of the table that `sphode info integrators` prints. */

@@ -1,8 +1,9 @@
 /* sphode/neighbors.h -- who is near whom.
  *
- * Sets of points are sorted into cells; the neighbours of a target set in a source set are, per block of `lanes`
- * consecutive sorted targets, a list of runs: consecutive places in the sorted order of the source.  A list is a
- * superset: every pair closer than `reach` is in it, and others may be (kernels vanish there, so they add zero). */
+ * Sets of points are sorted into cells; the neighbours of a target set in a source set are, per
+ * block of `lanes` consecutive sorted targets, a list of runs: consecutive places in the sorted
+ * order of the source.  A list is a superset: every pair closer than `reach` is in it, and others
+ * may be (kernels vanish there, so they add zero). */
 #ifndef SPHODE_NEIGHBORS_H
 #define SPHODE_NEIGHBORS_H
 #include <stdint.h>
@@ -16,16 +17,16 @@ extern "C" {
 typedef struct sph_neighbors sph_neighbors;
 
 typedef struct sph_neighbors_def {
-  int dim;      /* 1, 2, 3 */
-  double reach; /* every pair with r < reach is found [m], > 0 */
-  double dx;    /* particle spacing, sets the cell sizes [m]; 0: reach / 3 */
-  int lanes;    /* targets in a block: 1, 2, 4 or 8; 0: 1 */
-  int threads;  /* 0: 1; the lists do not depend on it */
-  const char *
-      method; /* "blocks" (NULL: default) or "brute-force", the reference: all sources for all targets */
-  int periodic[3];  /* direction is periodic */
-  double origin[3]; /* lower corner of the periodic box [m] */
-  double length[3]; /* its lengths [m], at least 2 reach where periodic */
+  int dim;            /* 1, 2, 3 */
+  double reach;       /* every pair with r < reach is found [m], > 0 */
+  double dx;          /* particle spacing, sets the cell sizes [m]; 0: reach / 3 */
+  int lanes;          /* targets in a block: 1, 2, 4 or 8; 0: 1 */
+  int threads;        /* 0: 1; the lists do not depend on it */
+  const char *method; /* "blocks" (NULL: default) or "brute-force", the reference: all sources for
+                         all targets */
+  int periodic[3];    /* direction is periodic */
+  double origin[3];   /* lower corner of the periodic box [m] */
+  double length[3];   /* its lengths [m], at least 2 reach where periodic */
 } sph_neighbors_def;
 
 /* Runs of one block: targets first[b] .. first[b + 1] - 1 index runs[]. */
@@ -46,8 +47,9 @@ enum { SPH_SETS_MAX = 64 };
 SPH_API sph_neighbors *sph_neighbors_create(const sph_neighbors_def *def, sph_error *error);
 SPH_API void sph_neighbors_free(sph_neighbors *neighbors);
 
-/* Sorts set number `set` (0 .. SPH_SETS_MAX - 1) of n points x[d][n], d < dim [m].  Reads x only during the call.
- * Points may lie anywhere (periodic directions are wrapped inside); not finite: SPH_RETRY.  Ends all lists of the set. */
+/* Sorts set number `set` (0 .. SPH_SETS_MAX - 1) of n points x[d][n], d < dim [m].  Reads x only
+ * during the call.  Points may lie anywhere (periodic directions are wrapped inside); not finite:
+ * SPH_RETRY.  Ends all lists of the set. */
 SPH_API int sph_neighbors_sort(sph_neighbors *neighbors, int set, long n, const double *const x[],
                                sph_error *error);
 /* Makes the list target <- source of two sorted sets (may be the same one). */
@@ -55,8 +57,8 @@ SPH_API int sph_neighbors_build(sph_neighbors *neighbors, int target, int source
 
 /* The sorted order of a set: order[s] = index of the point in sorted place s, [n]. */
 SPH_API const int *sph_neighbors_order(const sph_neighbors *neighbors, int set);
-/* Multiples of length[d] that wrapping subtracts from coordinate d of point i (not sorted): wrap[i]; NULL where
- * direction d is not periodic. */
+/* Multiples of length[d] that wrapping subtracts from coordinate d of point i (not sorted):
+ * wrap[i]; NULL where direction d is not periodic. */
 SPH_API const double *sph_neighbors_wrap(const sph_neighbors *neighbors, int set, int d);
 /* The list; blocks == 0 where none was built.  Valid until the next sort or build of these sets. */
 SPH_API sph_list sph_neighbors_list(const sph_neighbors *neighbors, int target, int source);
@@ -65,8 +67,9 @@ SPH_API const double (*sph_neighbors_shifts(const sph_neighbors *neighbors, int 
 /* Bytes held. */
 SPH_API double sph_neighbors_bytes(const sph_neighbors *neighbors);
 
-/* For people: the sources closer than reach to target point i (its index as given to sort), in rising order, without
- * i itself where target == source and image 0.  Fills at most max indices and distances (NULL: not wanted); returns how many there are, < 0: a status. */
+/* For people: the sources closer than reach to target point i (its index as given to sort), in
+ * rising order, without i itself where target == source and image 0.  Fills at most max indices and
+ * distances (NULL: not wanted); returns how many there are, < 0: a status. */
 SPH_API long sph_neighbors_find(const sph_neighbors *neighbors, int target, int source, long i,
                                 long max, long *index, double *distance);
 

@@ -1,16 +1,23 @@
 /* sphode/pair_loop.h -- the loop over pairs, for any body: it knows no physics.
  *
- * Every target in a lane, every source broadcast.  A block of SPH_LANES consecutive sorted targets meets, run by run,
- * its sources (sphode/neighbors.h).  Particles are records of doubles in sorted order; the first dim slots of a record
- * are the position.  No atomics, colours or reductions: the sums of a target depend on the order of its sources only.
+ * Every target in a lane, every source broadcast.  A block of SPH_LANES consecutive sorted targets
+ * meets, run by run, its sources (sphode/neighbors.h).  Particles are records of doubles in sorted
+ * order; the first dim slots of a record are the position.  No atomics, colours or reductions: the
+ * sums of a target depend on the order of its sources only.
  *
  * Use it around your own body:
  *
- *   BODY void count(int dim, const void *k, const vec *i, const vec *j, vec *sum) { sum[0] += ...; }
- *   void count_pairs(const sph_pair_task *t, long b, long e) { sph_pair_loop(count, t, b, e, 2, 2, 1); }
+ *   BODY void count(int dim, const void *k, const vec *i, const vec *j, vec *sum)
+ *   {
+ *     sum[0] += ...;
+ *   }
+ *   void count_pairs(const sph_pair_task *t, long begin, long end)
+ *   {
+ *     sph_pair_loop(count, t, begin, end, 2, 2, 1);
+ *   }
  *
- * dim, slots and sums must be constants for the loop to be fast.  A pair outside the support must add exact zeros, and
- * so must a particle with itself. */
+ * dim, slots and sums must be constants for the loop to be fast.  A pair outside the support must
+ * add exact zeros, and so must a particle with itself. */
 #ifndef SPHODE_PAIR_LOOP_H
 #define SPHODE_PAIR_LOOP_H
 
@@ -20,8 +27,8 @@
 enum { SPH_PAIR_SLOTS = 16, SPH_PAIR_SUMS = 12 };
 
 typedef struct sph_pair_task {
-  const double *
-      target; /* [blocks * lanes][target_stride] records; those past the last target: any finite values */
+  const double *target; /* [blocks * lanes][target_stride] records; those past the last target: any
+                           finite values */
   const double *source; /* [n_source][source_stride] records */
   long target_stride, source_stride;
   const long *first;        /* [blocks + 1] */

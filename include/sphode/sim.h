@@ -1,8 +1,9 @@
-/* sphode/sim.h -- a simulation: owns everything attached to it, evaluates the right-hand side, runs.
+/* sphode/sim.h -- a simulation: owns everything attached to it, evaluates the right-hand side,
+ * runs.
  *
- * The first error sticks: setters return nothing, later calls do nothing, sph_sim_run returns it, sph_sim_error tells
- * it.  A NULL simulation flows through.  Calls on one simulation must not overlap; two simulations may run in two
- * threads. */
+ * The first error sticks: setters return nothing, later calls do nothing, sph_sim_run returns it,
+ * sph_sim_error tells it.  A NULL simulation flows through.  Calls on one simulation must not
+ * overlap; two simulations may run in two threads. */
 #ifndef SPHODE_SIM_H
 #define SPHODE_SIM_H
 #include "sphode/base.h"
@@ -40,7 +41,8 @@ SPH_API int sph_sim_fail(sph_sim *sim, int status, const char *format, ...) SPH_
 SPH_API void sph_sim_add_term(sph_sim *sim, sph_term term);
 SPH_API void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def); /* copied */
 SPH_API void sph_sim_add_output(sph_sim *sim, sph_output output);
-/* Called after every accepted step; a return != 0 stops the run with SPH_ERR_STOPPED, outputs closed. */
+/* Called after every accepted step; a return != 0 stops the run with SPH_ERR_STOPPED, outputs
+ * closed. */
 SPH_API void sph_sim_set_progress(sph_sim *sim, int (*progress)(void *ctx, sph_sim *sim),
                                   void *ctx);
 
@@ -49,7 +51,8 @@ SPH_API int sph_sim_run(sph_sim *sim, double t_end);
 SPH_API int sph_sim_step(sph_sim *sim);
 /* Fields were written between steps: the integrator starts anew from them. */
 SPH_API void sph_sim_changed(sph_sim *sim);
-/* Evaluates the right-hand side of the present state: pressure, sound speed, walls, rates (sph_group_rate). */
+/* Evaluates the right-hand side of the present state: pressure, sound speed, walls, rates
+ * (sph_group_rate). */
 SPH_API int sph_sim_evaluate(sph_sim *sim);
 
 SPH_API double sph_sim_time(const sph_sim *sim); /* of the state shown [s] */
@@ -77,9 +80,9 @@ SPH_API void sph_sim_balance(const sph_sim *sim, sph_balance *balance);
 
 typedef struct sph_sim_stats {
   sph_step_stats step;
-  double
-      pairs; /* directed pairs inside the support, summed over right-hand sides (estimated from each list) */
-  double seconds;     /* wall time inside sph_sim_run and sph_sim_step */
+  double pairs;   /* directed pairs inside the support, summed over right-hand sides (estimated from
+                     each list) */
+  double seconds; /* wall time inside sph_sim_run and sph_sim_step */
   double rhs_seconds; /* of these, inside the right-hand side */
   long list_builds;
   long near;    /* particles nearer than 0.1 dx to another, at the last list build */

@@ -1,7 +1,8 @@
 /* sphode/simd.h -- one vector type per translation unit: SPH_LANES doubles.
  *
- * SPH_LANES is a constant of the translation unit: 1 (the slow, plain reference), 2, 4 (AVX2), 8 (AVX-512).
- * Operators + - * / and comparisons work on vec as on double; the functions below do the rest. */
+ * SPH_LANES is a constant of the translation unit: 1 (the slow, plain reference), 2, 4 (AVX2), 8
+ * (AVX-512).  Operators + - * / and comparisons work on vec as on double; the functions below do
+ * the rest. */
 #ifndef SPHODE_SIMD_H
 #define SPHODE_SIMD_H
 

@@ -38,13 +38,15 @@ enum sph_isa {
 #define SPH_ISA_BUILT(X) \
   X(reference) X(generic) SPH_ISA_BUILT_V2(X) SPH_ISA_BUILT_V3(X) SPH_ISA_BUILT_V4(X)
 
-/* In a *_loops.c, compiled once per instruction set with SPH_ISA its suffix: the name of its table. */
+/* In a *_loops.c, compiled once per instruction set with SPH_ISA its suffix: the name of its
+ * table. */
 #define SPH_ISA_JOIN_(name, isa) name##_##isa
 #define SPH_ISA_JOIN(name, isa) SPH_ISA_JOIN_(name, isa)
 #define SPH_ISA_NAME(name) SPH_ISA_JOIN(name, SPH_ISA)
 
-/* Instruction set number by name; name == NULL: SPHODE_ISA of the environment, else the best of this processor.
- * Unknown, not built or not run by this processor: -1, recorded with the names that work. */
+/* Instruction set number by name; name == NULL: SPHODE_ISA of the environment, else the best of
+ * this processor.  Unknown, not built or not run by this processor: -1, recorded with the names
+ * that work. */
 int sph_cpu_isa(const char *name, sph_error *error);
 const char *sph_cpu_isa_name(int isa);
 int sph_cpu_lanes(int isa);

@@ -1,6 +1,8 @@
-/* wall_pair.h -- what an Adami wall particle sums over its fluid neighbours (Adami, Hu & Adams 2012, eq. 22 to 27).
+/* wall_pair.h -- what an Adami wall particle sums over its fluid neighbours (Adami, Hu & Adams
+ * 2012, eq. 22 to 27).
  *
- *   sum_f W_wf,   sum_f p_f W_wf,   sum_f rho_f r_wf W_wf,   sum_f v_f W_wf,   sum_f u_f W_wf,      r_wf = r_w - r_f
+ *   sum_f W_wf,   sum_f p_f W_wf,   sum_f rho_f r_wf W_wf,   sum_f v_f W_wf,   sum_f u_f W_wf,
+ *   r_wf = r_w - r_f
  *
  * Only ratios of them are used, so W goes without its constant factor. */
 #ifndef SPH_WALL_PAIR_H

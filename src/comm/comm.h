@@ -1,4 +1,5 @@
-/* comm.h -- exchange points between ranks.  One process: nothing to do.  Several: halo updates of these fields. */
+/* comm.h -- exchange points between ranks.  One process: nothing to do.  Several: halo updates of
+ * these fields. */
 #ifndef SPH_COMM_H
 #define SPH_COMM_H
 

@@ -1,4 +1,5 @@
-/* count_pair.h -- how many pairs lie inside the support, and whether any is too close: knows positions only. */
+/* count_pair.h -- how many pairs lie inside the support, and whether any is too close: knows
+ * positions only. */
 #ifndef SPH_COUNT_PAIR_H
 #define SPH_COUNT_PAIR_H
 #include "cpu.h"
@@ -9,8 +10,8 @@ typedef struct count_constants {
   double near2; /* a squared distance under this one is too close [m^2] */
 } count_constants;
 
-/* Sums of a target: sources inside the support without itself; > 0 where one is nearer than allowed; at distance zero
- * (one, itself, in its own group). */
+/* Sums of a target: sources inside the support without itself; > 0 where one is nearer than
+ * allowed; at distance zero (one, itself, in its own group). */
 enum { SPH_COUNT_PAIRS, SPH_COUNT_NEAR, SPH_COUNT_ZERO, SPH_COUNT_SUMS };
 
 typedef struct sph_count_table {

@@ -64,7 +64,8 @@ void sph_group_set_pressure(sph_group *group, const double *p)
   }
 }
 
-/* d p/d z = rho g downwards from p(rho0) at the surface, by Runge-Kutta of order 4 in depth: for any inverse rho(p). */
+/* d p/d z = rho g downwards from p(rho0) at the surface, by Runge-Kutta of order 4 in depth: for
+ * any inverse rho(p). */
 static double pressure_at(const sph_eos *eos, double depth, double g)
 {
   enum { STEPS = 200 };

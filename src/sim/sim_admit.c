@@ -1,4 +1,5 @@
-/* Phase admit: are the rates finite, the particles apart?  And the step limits that this evaluation gives. */
+/* Phase admit: are the rates finite, the particles apart?  And the step limits that this evaluation
+ * gives. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -17,8 +18,9 @@ int sph_sim_admit_retry(sph_sim *sim, const char *format, ...)
   return SPH_RETRY;
 }
 
-/* After a list build: pairs inside the support, and particles nearer than 0.1 dx to another.  These are reported, not refused:
- * lone particles of spray may stick together, and a smaller step would not part them. */
+/* After a list build: pairs inside the support, and particles nearer than 0.1 dx to another.  These
+ * are reported, not refused: lone particles of spray may stick together, and a smaller step would
+ * not part them. */
 static void count(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;

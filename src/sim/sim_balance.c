@@ -2,7 +2,8 @@
 
 #include "sim_data.h"
 
-/* What particle i adds; sums run over particles in their own order: the same for any number of threads. */
+/* What particle i adds; sums run over particles in their own order: the same for any number of
+ * threads. */
 static void add(const sph_sim *sim, const sph_group *group, const sph_view *view, long i,
                 sph_balance *b)
 {

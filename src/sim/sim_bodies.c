@@ -1,4 +1,5 @@
-/* Phase bodies: starts all rates (dx/dt = v, dv/dt = g, the others zero) and adds the body terms. */
+/* Phase bodies: starts all rates (dx/dt = v, dv/dt = g, the others zero) and adds the body
+ * terms. */
 #include <math.h>
 
 #include "sim_rhs.h"

@@ -1,7 +1,7 @@
 /* Phase prepare: <grad rho>^L of every fluid particle, for the Antuono diffusion (gradient_pair.h).
  *
- * Where the least eigenvalue of M is under 0.4 (a surface, an isolated particle) the gradient is left out: Molteni's
- * diffusion for that end of the pair. */
+ * Where the least eigenvalue of M is under 0.4 (a surface, an isolated particle) the gradient is
+ * left out: Molteni's diffusion for that end of the pair. */
 #include "gradient_loops.h"
 #include "sim_rhs.h"
 

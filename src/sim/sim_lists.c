@@ -1,5 +1,5 @@
-/* Phase neighbors: the lists hold every pair closer than H + skin at their build; no particle may have moved by more
- * than skin/2 since. */
+/* Phase neighbors: the lists hold every pair closer than H + skin at their build; no particle may
+ * have moved by more than skin/2 since. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
-/* Phase pairs: pack (a sorted copy of what the loops read) -> one fused loop per interaction -> rates. */
+/* Phase pairs: pack (a sorted copy of what the loops read) -> one fused loop per interaction ->
+ * rates. */
 #include <math.h>
 #include <string.h>
 

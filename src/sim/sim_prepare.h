@@ -1,4 +1,5 @@
-/* sim_prepare.h -- from what was attached to a system of ODEs, once, before the first evaluation. */
+/* sim_prepare.h -- from what was attached to a system of ODEs, once, before the first
+ * evaluation. */
 #ifndef SPH_SIM_PREPARE_H
 #define SPH_SIM_PREPARE_H
 #include "sim_data.h"

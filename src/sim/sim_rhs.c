@@ -1,5 +1,5 @@
-/* The right-hand side dy/dt = f(t, y), phase by phase.  f depends on (t, y) and on the sort order of the last list
- * build only; nothing else is kept from one call to the next. */
+/* The right-hand side dy/dt = f(t, y), phase by phase.  f depends on (t, y) and on the sort order
+ * of the last list build only; nothing else is kept from one call to the next. */
 #include "sim_rhs.h"
 
 #include "clock.h"

@@ -1,4 +1,5 @@
-/* sim_rhs.h -- the right-hand side, by phases.  Each phase returns 0, SPH_RETRY or a failure (recorded). */
+/* sim_rhs.h -- the right-hand side, by phases.  Each phase returns 0, SPH_RETRY or a failure
+ * (recorded). */
 #ifndef SPH_SIM_RHS_H
 #define SPH_SIM_RHS_H
 #include "sim_data.h"

@@ -1,4 +1,5 @@
-/* The run: steps, and frames at their exact times by dense output, so that no frame shortens a step. */
+/* The run: steps, and frames at their exact times by dense output, so that no frame shortens a
+ * step. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

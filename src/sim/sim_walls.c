@@ -1,6 +1,8 @@
-/* Phase walls: prescribed motion; then p, rho and v of Adami walls from the fluid (Adami, Hu & Adams 2012).
+/* Phase walls: prescribed motion; then p, rho and v of Adami walls from the fluid (Adami, Hu &
+ * Adams 2012).
  *
- *   p_w = [sum p_f W + (g - a_w) . sum rho_f r_wf W]/sum W,   rho_w from p_w by the inverse equation of state,
+ *   p_w = [sum p_f W + (g - a_w) . sum rho_f r_wf W]/sum W,
+ *   rho_w from p_w by the inverse equation of state,
  *   v_w = 2 v_prescribed - sum v_f W/sum W in viscous terms (no slip).   No fluid near: p_w = 0. */
 #include <math.h>
 

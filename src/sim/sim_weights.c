@@ -1,5 +1,6 @@
 /* Error weights: physical scales of each field of each group.
- *   x: h;  v: V = max(user's, sqrt(g height), 0.01 c0, |v| at the start);  rho: rho0 (V/c0)^2;  u: V^2/2
+ *   x: h;  v: V = max(user's, sqrt(g height), 0.01 c0, |v| at the start);
+ *   rho: rho0 (V/c0)^2;  u: V^2/2
  * and for a gas V = mean sound speed, rho0 = mean density. */
 #include "sim_weights.h"
 

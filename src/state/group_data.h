@@ -42,7 +42,8 @@ typedef struct sph_view {
 
 /* Number of components of a field in dim dimensions. */
 int sph_group_data_components(int dim, int field);
-/* Room for `count` particles in all arrays of a group that has not been moved into the ODE vector. */
+/* Room for `count` particles in all arrays of a group that has not been moved into the ODE
+ * vector. */
 int sph_group_data_reserve(struct sph_group *group, long count, sph_error *error);
 void sph_group_data_free(struct sph_group *group); /* and itself; calls the users' free functions */
 /* Is that field of this group integrated? */

@@ -1,4 +1,5 @@
-/* layout.h -- what the entries of the ODE vector are: one segment per group, field and component. */
+/* layout.h -- what the entries of the ODE vector are: one segment per group, field and
+ * component. */
 #ifndef SPH_LAYOUT_H
 #define SPH_LAYOUT_H
 
@@ -9,8 +10,9 @@ typedef struct sph_segment {
   long offset;   /* first entry, a multiple of 8 */
   long n;        /* entries that count; the rest up to capacity is padding */
   long capacity; /* a multiple of 8 */
-  int role; /* enum sph_role; the segment behind a POSITION one of component c is matched by `partner` */
-  int partner; /* POSITION: index of the segment that holds its velocity; others: -1 */
+  int role;      /* enum sph_role; the segment behind a POSITION one of component c is matched by
+                    `partner` */
+  int partner;   /* POSITION: index of the segment that holds its velocity; others: -1 */
 } sph_segment;
 
 typedef struct sph_layout {

@@ -1,5 +1,5 @@
-/* Instances of the fused loop, once per instruction set: the bodies of the active terms one after another on the same
- * pair, closed by one fluid_pair_forces. */
+/* Instances of the fused loop, once per instruction set: the bodies of the active terms one after
+ * another on the same pair, closed by one fluid_pair_forces. */
 #include "fluid_loops.h"
 
 #include "term_conductivity_artificial.h"

@@ -1,4 +1,5 @@
-/* fluid_loops.h -- the fused loops over fluid <- fluid and fluid <- wall pairs, by instruction set. */
+/* fluid_loops.h -- the fused loops over fluid <- fluid and fluid <- wall pairs, by instruction
+ * set. */
 #ifndef SPH_FLUID_LOOPS_H
 #define SPH_FLUID_LOOPS_H
 #include "cpu.h"
@@ -6,7 +7,8 @@
 
 #define SPH_WATER (SPH_CONTINUITY | SPH_PRESSURE_FORCE | SPH_FORM_C2)
 
-/* Constant sets of terms with a loop of their own, looked up by exact mask; "any" reads it at run time.
+/* Constant sets of terms with a loop of their own, looked up by exact mask; "any" reads it at run
+ * time.
  * X(kernel, dim, name, mask, slots) */
 #define SPH_FLUID_SETS(X, kernel, dim)                                                    \
   X(kernel, dim, molteni, SPH_WATER | SPH_ARTIFICIAL | SPH_MOLTENI, 2 * dim + 4)          \

@@ -1,14 +1,17 @@
-/* fluid_pair.h -- what all terms of a pair share.  Term files see only this: a pair, two particles, the constants.
+/* fluid_pair.h -- what all terms of a pair share.  Term files see only this: a pair, two particles,
+ * the constants.
  *
  *   r = x_i - x_j,  v = v_i - v_j,  grad_i W = r F,  F = W'/r <= 0
  *
- * F is used up to its constant factor sigma_d/h^(d+2): all sums are linear in F and scaled once at the end. */
+ * F is used up to its constant factor sigma_d/h^(d+2): all sums are linear in F and scaled once at
+ * the end. */
 #ifndef SPH_FLUID_PAIR_H
 #define SPH_FLUID_PAIR_H
 #include "sphode/kernel_shape.h"
 #include "sphode/pair_loop.h"
 
-/* Which terms act on a pair: a constant in the fast instances, read at run time in the one for any set. */
+/* Which terms act on a pair: a constant in the fast instances, read at run time in the one for any
+ * set. */
 enum {
   SPH_CONTINUITY = 1,
   SPH_PRESSURE_FORCE = 2,
@@ -22,7 +25,8 @@ enum {
 };
 
 /* A record, in slots: x[dim] v[dim] rho p c V extra[dim] u.
- *   p: the pressure (C2) or p/rho^2 (S);  extra: <grad rho>^L of a fluid, the velocity that viscous terms see of a wall. */
+ *   p: the pressure (C2) or p/rho^2 (S);
+ *   extra: <grad rho>^L of a fluid, the velocity that viscous terms see of a wall. */
 BODY int slot_v(int dim) { return dim; }
 BODY int slot_rho(int dim) { return 2 * dim; }
 BODY int slot_p(int dim) { return 2 * dim + 1; }
@@ -107,7 +111,8 @@ BODY pair fluid_pair_common(int dim, int kernel, unsigned terms, const fluid_con
   return p;
 }
 
-/* Closes a pair: forces are summed, and the dissipative ones heat both ends with half of their work. */
+/* Closes a pair: forces are summed, and the dissipative ones heat both ends with half of their
+ * work. */
 BODY void fluid_pair_forces(int dim, unsigned terms, const pair *p, vec *sum)
 {
   for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += (p->push + p->along_r) * p->r[d];

@@ -1,8 +1,11 @@
-/* gradient_pair.h -- the prepare pass of the Antuono diffusion: gradient matrix and density gradient.
+/* gradient_pair.h -- the prepare pass of the Antuono diffusion: gradient matrix and density
+ * gradient.
  *
- *   M_i^ab = - sum_j V_j r^a r^b F,   b_i = sum_j V_j (rho_j - rho_i) grad_i W_ij,   <grad rho>^L_i = M_i^-1 b_i
+ *   M_i^ab = - sum_j V_j r^a r^b F,   b_i = sum_j V_j (rho_j - rho_i) grad_i W_ij,
+ *   <grad rho>^L_i = M_i^-1 b_i
  *
- * (Randles & Libersky 1996; exact for a linear density, also at surfaces).  F goes without its constant factor. */
+ * (Randles & Libersky 1996; exact for a linear density, also at surfaces).  F goes without its
+ * constant factor. */
 #ifndef SPH_GRADIENT_PAIR_H
 #define SPH_GRADIENT_PAIR_H
 #include "fluid_pair.h"

@@ -1,6 +1,7 @@
 /* term_conductivity_artificial.h -- artificial conductivity (Price 2008, eq. 28 and 40).
  *
- *   du_i = sum_j m_j/rho_ij alpha_u v_sig (u_i - u_j) r F_ij,   v_sig = sqrt(|p_i - p_j|/rho_ij),  rho_ij: mean
+ *   du_i = sum_j m_j/rho_ij alpha_u v_sig (u_i - u_j) r F_ij,   v_sig = sqrt(|p_i - p_j|/rho_ij),
+ *   rho_ij: mean
  *
  * Conserves sum m u; smooths u at contact discontinuities. */
 #ifndef SPH_TERM_CONDUCTIVITY_ARTIFICIAL_H

@@ -3,9 +3,10 @@
  *   C2:  d rho_i/dt = rho_i sum_j V_j v_ij . grad_i W_ij
  *   C1:  d rho_i/dt =       sum_j m_j v_ij . grad_i W_ij
  *
- * Exact time derivative of the summation density (C1); better across jumps of density (C2).  The sum without rho_i also
- * gives the heating by compression, du_i = p_i/rho_i^2 d rho_i/dt: partner of the pressure force of the same row, so that
- * sum m (v^2/2 + u) is conserved and the entropy of each particle too. */
+ * Exact time derivative of the summation density (C1); better across jumps of density (C2).  The
+ * sum without rho_i also gives the heating by compression, du_i = p_i/rho_i^2 d rho_i/dt: partner
+ * of the pressure force of the same row, so that sum m (v^2/2 + u) is conserved and the entropy of
+ * each particle too. */
 #ifndef SPH_TERM_CONTINUITY_H
 #define SPH_TERM_CONTINUITY_H
 #include "fluid_pair.h"

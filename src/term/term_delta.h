@@ -2,10 +2,12 @@
  *
  *   D_i = delta h c0 sum_j V_j psi_ij . grad_i W_ij
  *   Molteni & Colagrossi (2009):  psi_ij = 2 (rho_j - rho_i) (r_j - r_i)/r^2
- *   Antuono et al. (2010):        psi_ij = 2 (rho_j - rho_i) (r_j - r_i)/r^2 - (<grad rho>^L_i + <grad rho>^L_j)
+ *   Antuono et al. (2010):        psi_ij = 2 (rho_j - rho_i) (r_j - r_i)/r^2
+ *                                          - (<grad rho>^L_i + <grad rho>^L_j)
  *
- * sum V D = 0; Antuono's vanishes for a linear density, also at free surfaces.  A wall has no gradient of its own: it
- * mirrors that of i.  The factor delta h c0 is applied to the sum (fluid_rates.c). */
+ * sum V D = 0; Antuono's vanishes for a linear density, also at free surfaces.  A wall has no
+ * gradient of its own: it mirrors that of i.  The factor delta h c0 is applied to the sum
+ * (fluid_rates.c). */
 #ifndef SPH_TERM_DELTA_H
 #define SPH_TERM_DELTA_H
 #include "fluid_pair.h"

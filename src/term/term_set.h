@@ -1,4 +1,5 @@
-/* term_set.h -- the terms of a simulation: what the fused loops need of them, and the body terms. */
+/* term_set.h -- the terms of a simulation: what the fused loops need of them, and the body
+ * terms. */
 #ifndef SPH_TERM_SET_H
 #define SPH_TERM_SET_H
 #include "fluid_pair.h"

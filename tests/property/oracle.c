@@ -121,8 +121,8 @@ static void materials(oracle *o)
 
 /* ---- walls (Adami, Hu & Adams 2012):
  *   p_w = [sum p_f W + (g - a_w) . sum rho_f r_wf W] / sum W,   rho_w = rho(p_w),
- *   v_w = 2 v - <v_f> for viscous terms that see it;  in a gas u_w = <u_f>, and rho_w = rho0 where p_w or u_w is
- *   not positive ---- */
+ *   v_w = 2 v - <v_f> for viscous terms that see it;
+ *   in a gas u_w = <u_f>, and rho_w = rho0 where p_w or u_w is not positive ---- */
 
 static void wall(oracle *o, long w)
 {
@@ -162,7 +162,8 @@ static void wall(oracle *o, long w)
 /* ---- gradients:  <grad rho>^L_i = M^-1 sum V_j (rho_j - rho_i) grad W,
  *   M^ab = - sum V_j r^a r^b F;   0 where the smallest eigenvalue of M is below 0.4 ---- */
 
-/* Eigenvalues of a symmetric a[3][3] to a's diagonal, vectors to the columns of q (Jacobi rotations). */
+/* Eigenvalues of a symmetric a[3][3] to a's diagonal, vectors to the columns of q (Jacobi
+ * rotations). */
 static void eigen(real a[3][3], real q[3][3])
 {
   for (int r = 0; r < 3; r++)

@@ -1,8 +1,9 @@
-/* oracle.h -- the right-hand side a second time: brute force over all pairs in long double, written from the
- * equations alone (docs/theory.md), sharing no line with the library.
+/* oracle.h -- the right-hand side a second time: brute force over all pairs in long double, written
+ * from the equations alone (docs/theory.md), sharing no line with the library.
  *
- * Beside every result stands its size: the sum of the magnitudes of all that was added to it, in which what
- * cancels counts in full.  A double precision evaluation differs by rounding times size. */
+ * Beside every result stands its size: the sum of the magnitudes of all that was added to it, in
+ * which what cancels counts in full.  A double precision evaluation differs by rounding times
+ * size. */
 #ifndef ORACLE_H
 #define ORACLE_H
 

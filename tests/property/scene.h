@@ -1,4 +1,5 @@
-/* scene.h -- random states, made once for the oracle and once for the library through its public interface. */
+/* scene.h -- random states, made once for the oracle and once for the library through its public
+ * interface. */
 #ifndef SCENE_H
 #define SCENE_H
 #include "oracle.h"
@@ -27,7 +28,8 @@ typedef struct scene {
 void scene_make(scene *s, const scene_def *def);
 void scene_free(scene *s);
 
-/* The library's simulation of scene.o with its terms, and with these options (NULL, 0: defaults). */
+/* The library's simulation of scene.o with its terms, and with these options (NULL, 0:
+ * defaults). */
 typedef struct scene_options {
   const char *isa, *neighbors;
   int threads;
@@ -38,8 +40,8 @@ sph_sim *scene_sim(scene *s, scene_options options);
 /* Writes scene.o's positions, velocities, densities, energies to the groups of the simulation. */
 void scene_write(const scene *s, sph_sim *sim);
 
-/* The rates that the library found, in the order of scene.o.particle: [n] each, 0 for walls; p of walls too.
- * To be freed by scene_rates_free. */
+/* The rates that the library found, in the order of scene.o.particle: [n] each, 0 for walls; p of
+ * walls too.  To be freed by scene_rates_free. */
 typedef struct scene_rates {
   long n;
   double *a[3], *drho, *du, *p, *c, *rho;

@@ -1,5 +1,6 @@
-/* What the right-hand side keeps, whatever the state: momentum, angular momentum, energy, entropy, mass of the
- * diffusing density; the signs of what it loses; and the states that it leaves alone. */
+/* What the right-hand side keeps, whatever the state: momentum, angular momentum, energy, entropy,
+ * mass of the diffusing density; the signs of what it loses; and the states that it leaves
+ * alone. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -197,7 +198,8 @@ static void viscous_heat(void **state)
   }
 }
 
-/* Conduction moves energy, evens it out, and makes entropy: sum m du = 0, sum m u du < 0, sum m du/u > 0. */
+/* Conduction moves energy, evens it out, and makes entropy: sum m du = 0, sum m u du < 0, sum m
+ * du/u > 0. */
 static void conduction(void **state)
 {
   (void)state;
@@ -222,7 +224,8 @@ static void conduction(void **state)
   }
 }
 
-/* Of every particle: A = p/rho^gamma stays where nothing dissipates, and grows where viscosity does.
+/* Of every particle: A = p/rho^gamma stays where nothing dissipates, and grows where viscosity
+ * does.
  *   dA/dt = (gamma - 1) rho^(1 - gamma) (du/dt - p/rho^2 drho/dt) */
 static void entropy(void **state)
 {
@@ -250,7 +253,8 @@ static void entropy(void **state)
 
 /* ---- density ---- */
 
-/* C1 is the time derivative of the summation density along the motion: against differences of sum m W. */
+/* C1 is the time derivative of the summation density along the motion: against differences of sum m
+ * W. */
 static real summation(const oracle *o, long i, real time)
 {
   real rho = 0;
@@ -313,7 +317,8 @@ static void density_diffusion(void **state)
   }
 }
 
-/* Antuono's diffusion leaves a linear density alone, at a free surface too; Molteni's does not there. */
+/* Antuono's diffusion leaves a linear density alone, at a free surface too; Molteni's does not
+ * there. */
 static void linear_density(void **state)
 {
   (void)state;

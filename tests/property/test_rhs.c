@@ -1,5 +1,5 @@
-/* The right-hand side against an independent brute force in long double, on random states; and what it must
- * not depend on to the last bit: threads, skin, the way neighbours are found. */
+/* The right-hand side against an independent brute force in long double, on random states; and what
+ * it must not depend on to the last bit: threads, skin, the way neighbours are found. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -135,7 +135,8 @@ static void all_instruction_sets(void **state)
   scene_free(&s);
 }
 
-/* The lists of the start, still used after small moves, find every pair: forces are of the new places. */
+/* The lists of the start, still used after small moves, find every pair: forces are of the new
+ * places. */
 static void moved_particles(void **state)
 {
   (void)state;
