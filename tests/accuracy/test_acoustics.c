@@ -1,0 +1,119 @@
+/* Sound on a lattice has a frequency known in closed form: the linear response of the right-hand side to a standing
+ * wave of wave number k, with density rho0 (1 + e cos kx) or velocity e sin kx, is
+ *
+ *   d rho/dt = - e rho0 (omega/c0) cos kx,   a = e c0 omega sin kx,   omega = c0 |sum_j V r_ij F_ij sin(k r_ij)|
+ *
+ * (p = 0 at rest).  All sums run over the lattice here, with the kernels' polynomials written out again. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "sphode.h"
+
+enum { N = 40 };
+static const double c0 = 3, rho0 = 2, pi = 3.14159265358979323846; /* [m/s], [kg/m] */
+
+/* F = W'/r in 1D [m^-3] */
+static double kernel_f(int cubic, double r, double h)
+{
+  double q = r / h, t = 1 - q / 2;
+  if (q >= 2) return 0;
+  if (!cubic) return -3 * t * t * 5 / (8 * h * h * h);
+  return (q < 1 ? -3 + 9 * q / 4 : -3 * (2 - q) * (2 - q) / (4 * q)) * 2 / (3 * h * h * h);
+}
+
+static double frequency(int cubic, double h, double k)
+{
+  double sum = 0, dx = 1.0 / N;
+  for (int j = -N / 2 + 1; j < N / 2; j++)
+    sum += dx * j * dx * kernel_f(cubic, fabs(j * dx), h) * sin(k * j * dx);
+  return c0 * fabs(sum);
+}
+
+/* Amplitude of the answer to a wave of size e, along its shape: cos kx of drho/dt, sin kx of a. */
+static double response(sph_sim *sim, int of_density, double k, double e)
+{
+  sph_group *gas = sph_sim_group(sim, "gas");
+  const double *x = sph_group_read(gas, "position", 0);
+  double *v = sph_group_write(gas, "velocity", 0), *rho = sph_group_write(gas, "density", 0);
+  assert_non_null(x);
+  for (int i = 0; i < N; i++) {
+    v[i] = of_density ? 0 : e * sin(k * x[i]);
+    rho[i] = rho0 * (1 + (of_density ? e * cos(k * x[i]) : 0));
+  }
+  sph_sim_changed(sim);
+  assert_int_equal(sph_sim_evaluate(sim), SPH_OK);
+  x = sph_group_read(gas, "position", 0);
+  const double *rate = sph_group_rate(gas, of_density ? "velocity" : "density", 0);
+  double sum = 0;
+  for (int i = 0; i < N; i++) sum += rate[i] * (of_density ? sin(k * x[i]) : cos(k * x[i]));
+  return 2 * sum / N;
+}
+
+/* omega from both answers; even orders of e cancel. */
+static double measured(int cubic, double h_over_dx, const char *form, double k)
+{
+  sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 1,
+                                               .dx = 1.0 / N,
+                                               .kernel = cubic ? "cubic-spline" : "wendland-c2",
+                                               .h_over_dx = h_over_dx,
+                                               .periodic = {1},
+                                               .length = {1}});
+  sph_group *gas = sph_group_box(sim, "gas", (double[]){0}, (double[]){1}, rho0);
+  sph_group_set_eos(gas, sph_eos_linear(rho0, c0, -INFINITY));
+  sph_sim_add_term(sim, sph_term_continuity_form(form));
+  sph_sim_add_term(sim, sph_term_pressure_form(form[1] == '1' ? "s" : "c2"));
+  assert_int_equal(sph_group_count(gas), N);
+  const double e = 1e-5;
+  double force = (response(sim, 1, k, e) - response(sim, 1, k, -e)) / (2 * e);
+  double compression = (response(sim, 0, k, e) - response(sim, 0, k, -e)) / (2 * e);
+  assert_string_equal(sph_sim_error(sim), "");
+  sph_sim_free(sim);
+  return sqrt(-force * compression / rho0);
+}
+
+static void published_example(void **state)
+{
+  (void)state;
+  double omega = measured(0, 1.5, "c1", 2 * pi);
+  if (fabs(omega / 18.426249613 - 1) > 1e-9) fail_msg("omega %.12g", omega);
+}
+
+static void all_waves(void **state)
+{
+  (void)state;
+  for (int cubic = 0; cubic < 2; cubic++)
+    for (int form = 0; form < 2; form++)
+      for (int wave = 1; wave < N / 2; wave += 3) {
+        double h_over_dx = cubic ? 1.2 : 1.8, k = 2 * pi * wave;
+        double expected = frequency(cubic, h_over_dx / N, k);
+        double omega = measured(cubic, h_over_dx, form ? "c2" : "c1", k);
+        if (fabs(omega - expected) > 1e-9 * c0 * k) /* near the end of the band omega -> 0 */
+          fail_msg("wave %d, kernel %d: %.12g, expected %.12g", wave, cubic, omega, expected);
+      }
+}
+
+/* With h/dx large, the kernel's own dispersion: its transform is 1 - (k h sigma_k)^2/2, sigma_k^2 = 8/21. */
+static void long_waves(void **state)
+{
+  (void)state;
+  double omega = measured(0, 4, "c2", 2 * pi);
+  print_message("# k h = %.3g: omega/(c0 k) = %.6f\n", 2 * pi * 4 / N, omega / (c0 * 2 * pi));
+  double kh = 2 * pi * 4 / N;
+  assert_true(fabs(omega / (c0 * 2 * pi) - 1 + 4.0 / 21 * kh * kh) < 0.02 * kh * kh);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(published_example),
+      cmocka_unit_test(all_waves),
+      cmocka_unit_test(long_waves),
+  };
+  return cmocka_run_group_tests_name("acoustics", tests, NULL, NULL);
+}

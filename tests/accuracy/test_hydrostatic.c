@@ -1,0 +1,81 @@
+/* Water at rest in a tank, H/dx = 20, from the exact column of its equation of state: it must stay at rest.
+ *
+ * Bars: L1(p) = mean |p - p_exact|/(rho0 g H) <= 0.4 % and kinetic energy <= 1e-6 of the potential one, at
+ * t sqrt(g/H) = 40; SPHODE_TEST_LONG=1: at 120. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "exact.h"
+#include "sphode.h"
+
+static const double H = 1, g = 1, rho0 = 1000; /* [m], [m/s^2], [kg/m^3] */
+
+static sph_sim *tank(double wide)
+{
+  const double dx = H / 20, c0 = 10 * sqrt(2 * g * H);
+  sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = dx, .h_over_dx = 1.5});
+  sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){wide, H}, rho0);
+  sph_group *walls = sph_group_create(sim, "walls", "wall");
+  sph_group_add_layers(walls, (double[]){0, 0}, (double[]){wide, 1.3 * H}, "y+", rho0);
+  sph_group_set_eos(water, sph_eos_tait(rho0, c0, 7));
+  sph_group_set_boundary(walls, sph_boundary_adami());
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, sph_term_pressure());
+  sph_sim_add_term(sim, sph_term_viscosity_artificial(0.02, 0));
+  sph_sim_add_term(sim, sph_term_delta("antuono", 0.1));
+  sph_sim_add_term(sim, sph_term_gravity((double[3]){0, -g, 0}));
+  sph_group_set_hydrostatic(water, 1, H, g);
+  return sim;
+}
+
+static double pressure_error(const sph_group *water)
+{
+  const double *y = sph_group_read(water, "position", 1), *p = sph_group_read(water, "pressure", 0);
+  sph_exact_column column = {*sph_group_eos(water), H, 0, g};
+  double sum = 0;
+  long n = sph_group_count(water);
+  for (long i = 0; i < n; i++) {
+    double exact;
+    assert_int_equal(sph_exact_column_at(&column, 1, &y[i], NULL, &exact, NULL), SPH_OK);
+    sum += fabs(p[i] - exact) / (rho0 * g * H);
+  }
+  return sum / (double)n;
+}
+
+static void stays_at_rest(void **state)
+{
+  (void)state;
+  const double t_end = (getenv("SPHODE_TEST_LONG") ? 120 : 40) * sqrt(H / g);
+  sph_sim *sim = tank(H);
+  const sph_group *water = sph_sim_group(sim, "water");
+  assert_int_equal(sph_sim_evaluate(sim), SPH_OK);
+  double start = pressure_error(water);
+  int status = sph_sim_run(sim, t_end);
+  if (status != SPH_OK) fail_msg("%s", sph_sim_error(sim));
+  double error = pressure_error(water);
+  sph_balance balance;
+  sph_sim_balance(sim, &balance);
+  double motion = balance.kinetic / (balance.mass * g * H / 2);
+  sph_sim_stats stats;
+  sph_sim_get_stats(sim, &stats);
+  print_message("# t = %g: L1(p) = %.3f %% (start %.2g, bar 0.4 %%), kinetic/potential %.2g (bar "
+                "1e-6), %ld steps, %.1f s\n",
+                sph_sim_time(sim), 100 * error, start, motion, stats.step.steps, stats.seconds);
+  assert_true(start <= 1e-6);
+  assert_true(error <= 0.004);
+  assert_true(motion <= 1e-6);
+  sph_sim_free(sim);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(stays_at_rest)};
+  return cmocka_run_group_tests_name("hydrostatic", tests, NULL, NULL);
+}
