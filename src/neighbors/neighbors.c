@@ -51,6 +51,13 @@ static void make_images(sph_neighbors *nb)
   }
 }
 
+static void list_bits(sph_bits *list)
+{
+  for (int k = 0; k < 256; k++)
+    for (int bit = 0; bit < 8; bit++)
+      if (k >> bit & 1) list->place[k][list->count[k]++] = bit;
+}
+
 sph_neighbors *sph_neighbors_create(const sph_neighbors_def *def, sph_error *error)
 {
   if (!def) {
@@ -63,10 +70,11 @@ sph_neighbors *sph_neighbors_create(const sph_neighbors_def *def, sph_error *err
   nb->def = *def;
   nb->def.method = NULL;
   nb->brute_force = def->method && !strcmp(def->method, "brute-force");
-  if (nb->def.dx == 0) nb->def.dx = def->reach / 3;
+  if (def->dx == 0 || def->dx > def->reach) nb->def.dx = def->reach / (def->dx ? 1 : 3);
   if (nb->def.lanes == 0) nb->def.lanes = 1;
   if (nb->def.threads == 0) nb->def.threads = 1;
   make_images(nb);
+  list_bits(&nb->bits);
   nb->scratch = SPH_NEW(sph_runs, nb->def.threads, "scratch of the neighbour search", error);
   if (nb->scratch) return nb;
   sph_neighbors_free(nb);
@@ -129,19 +137,30 @@ const double (*sph_neighbors_shifts(const sph_neighbors *nb, int *count))[3]
   return nb ? nb->shift : NULL;
 }
 
+static double set_bytes(const sph_set *set)
+{
+  double bytes = sizeof(int) * (double)(2 * set->room + set->start_room);
+  for (int d = 0; d < 3; d++) {
+    if (set->x[d]) bytes += sizeof(double) * (double)(set->room + SPH_LANES_MAX);
+    if (set->wrap[d]) bytes += sizeof(double) * (double)set->room;
+  }
+  return bytes;
+}
+
 double sph_neighbors_bytes(const sph_neighbors *nb)
 {
-  double bytes = nb ? sizeof *nb : 0;
-  for (int s = 0; nb && s < SPH_SETS_MAX; s++) {
-    const sph_set *set = &nb->set[s];
-    int doubles = nb->def.dim;
-    for (int d = 0; d < 3; d++) doubles += set->wrap[d] != NULL;
-    bytes += (double)set->room * (2 * sizeof(int) + 8.0 * doubles) + 4.0 * (double)set->start_room;
-    for (int t = 0; t < SPH_SETS_MAX; t++)
-      if (nb->list[s][t])
-        bytes += 8.0 * (double)(nb->list[s][t]->first_room + nb->list[s][t]->runs.room);
+  if (!nb) return 0;
+  double bytes = (double)sizeof *nb + (double)nb->def.threads * sizeof *nb->scratch;
+  for (int s = 0; s < SPH_SETS_MAX; s++) {
+    bytes += set_bytes(&nb->set[s]);
+    for (int t = 0; t < SPH_SETS_MAX; t++) {
+      const sph_pair_list *list = nb->list[s][t];
+      if (!list) continue;
+      bytes += (double)sizeof *list + sizeof(long) * (double)list->first_room +
+               sizeof(sph_run) * (double)list->runs.room;
+    }
   }
-  for (int k = 0; nb && k < nb->def.threads; k++) bytes += 8.0 * (double)nb->scratch[k].room;
+  for (int k = 0; k < nb->def.threads; k++) bytes += sizeof(sph_run) * (double)nb->scratch[k].room;
   return bytes;
 }
 
@@ -152,11 +171,12 @@ typedef struct found {
 
 static int by_index(const void *a, const void *b)
 {
-  long x = ((const found *)a)->index, y = ((const found *)b)->index;
-  return (x > y) - (x < y);
+  const found *x = a, *y = b;
+  if (x->index != y->index) return x->index > y->index ? 1 : -1;
+  return (x->distance > y->distance) - (x->distance < y->distance);
 }
 
-/* Sorted place of point i. */
+/* Sorted place of point i; -1: there is none. */
 static long place_of(const sph_set *set, long i)
 {
   for (long s = 0; s < set->n; s++)
@@ -164,25 +184,51 @@ static long place_of(const sph_set *set, long i)
   return -1;
 }
 
+/* Writes the sources within reach of sorted place t from `begin` on in that image; to NULL: only counts. */
+static long collect(const sph_neighbors *nb, int target, int source, long t, int image, long begin,
+                    long end, found *to)
+{
+  const sph_set *set = &nb->set[source];
+  long n = 0;
+  for (long s = begin; s < end; s++) {
+    double r2 = 0;
+    for (int d = 0; d < nb->def.dim; d++) {
+      double r = nb->set[target].x[d][t] - nb->shift[image][d] - set->x[d][s];
+      r2 += r * r;
+    }
+    int itself = target == source && image == 0 && s == t;
+    if (itself || !(r2 < nb->def.reach * nb->def.reach)) continue;
+    if (to) to[n] = (found){set->order[s], sqrt(r2)};
+    n++;
+  }
+  return n;
+}
+
+/* All of them: from the list, or from all sources where there is none. */
+static long collect_all(const sph_neighbors *nb, int target, int source, long t, found *to)
+{
+  const sph_list list = sph_neighbors_list(nb, target, source);
+  long n = 0, b = t / nb->def.lanes;
+  for (int m = 0; !list.blocks && m < nb->images; m++)
+    n += collect(nb, target, source, t, m, 0, nb->set[source].n, to ? to + n : NULL);
+  for (long r = list.blocks ? list.first[b] : 0; list.blocks && r < list.first[b + 1]; r++) {
+    const sph_run run = list.runs[r];
+    n += collect(nb, target, source, t, run.image, run.start, run.start + (long)run.count,
+                 to ? to + n : NULL);
+  }
+  return n;
+}
+
 long sph_neighbors_find(const sph_neighbors *nb, int target, int source, long i, long max,
                         long *index, double *distance)
 {
   if (!good_set(nb, target) || !good_set(nb, source)) return SPH_ERR_STATE;
-  const sph_set *t = &nb->set[target], *s = &nb->set[source];
-  long place = place_of(t, i), n = 0;
+  long place = place_of(&nb->set[target], i);
   if (place < 0 || max < 0) return SPH_ERR_ARGUMENT;
-  found *all = sph_memory_take((size_t)s->n * (size_t)nb->images, sizeof *all);
+  long n = collect_all(nb, target, source, place, NULL);
+  found *all = sph_memory_take((size_t)n, sizeof *all);
   if (!all) return SPH_ERR_MEMORY;
-  for (int m = 0; m < nb->images; m++)
-    for (long k = 0; k < s->n; k++) {
-      double r2 = 0;
-      for (int d = 0; d < nb->def.dim; d++) {
-        double r = t->x[d][place] - nb->shift[m][d] - s->x[d][k];
-        r2 += r * r;
-      }
-      int itself = target == source && m == 0 && k == place;
-      if (!itself && r2 < nb->def.reach * nb->def.reach) all[n++] = (found){s->order[k], sqrt(r2)};
-    }
+  collect_all(nb, target, source, place, all);
   qsort(all, (size_t)n, sizeof *all, by_index);
   for (long k = 0; k < n && k < max; k++) {
     if (index) index[k] = all[k].index;

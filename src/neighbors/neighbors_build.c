@@ -4,16 +4,22 @@
 #include "memory.h"
 #include "neighbors_data.h"
 
+enum { PARALLEL_MIN = 256 }; /* blocks */
+
 #define DECLARE(isa) extern const sph_neighbors_table sph_neighbors_loops_##isa;
 SPH_ISA_BUILT(DECLARE)
 
+/* The fastest instance of that many lanes that this processor runs; else the reference, which takes any number. */
 static sph_neighbors_search *search_of(int lanes)
 {
-#define MATCH(isa) \
-  if (sph_cpu_lanes(SPH_ISA_##isa) == lanes) return sph_neighbors_loops_##isa.search;
+  sph_neighbors_search *search = sph_neighbors_loops_reference.search;
+#define MATCH(isa)                                             \
+  if (sph_cpu_lanes(SPH_ISA_##isa) == lanes &&                 \
+      sph_cpu_isa(sph_cpu_isa_name(SPH_ISA_##isa), NULL) >= 0) \
+    search = sph_neighbors_loops_##isa.search;
   SPH_ISA_BUILT(MATCH)
 #undef MATCH
-  return NULL;
+  return search;
 }
 
 /* The reference: all sources, in all images. */
@@ -23,7 +29,7 @@ static void search_all(const sph_neighbors *nb, const sph_set *target, const sph
   (void)target;
   for (long b = begin; b < end; b++) {
     first[b] = out->n;
-    for (int m = 0; m < nb->images; m++) sph_neighbors_runs_add(out, out->n, 0, source->n, m);
+    for (int m = 0; m < nb->images; m++) sph_neighbors_runs_add(out, 0, source->n, m);
   }
 }
 
@@ -43,28 +49,26 @@ static sph_pair_list *open_list(sph_neighbors *nb, int target, int source, long 
   return *list;
 }
 
-/* Puts the threads' shares one behind the other. */
+/* Puts the shares of threads 1, 2, ... behind that of thread 0, which stands in the list already. */
 static int join(sph_neighbors *nb, sph_pair_list *list, long blocks, sph_error *error)
 {
-  int threads = nb->def.threads;
-  long total = 0;
-  for (int k = 0; k < threads; k++) total += nb->scratch[k].n;
-  if (total > list->runs.room) {
-    list->runs.n = 0;
-    if (sph_memory_grow((void **)&list->runs.run, 0, (size_t)(total + total / 4), sizeof(sph_run),
-                        "neighbour runs", error))
-      return SPH_ERR_MEMORY;
-    list->runs.room = total + total / 4;
+  int threads = nb->def.threads, status = list->runs.status;
+  long more = 0;
+  for (int k = 1; k < threads; k++) {
+    more += nb->scratch[k].n;
+    if (nb->scratch[k].status) status = nb->scratch[k].status;
   }
-  long offset = 0;
-  for (int k = 0; k < threads; k++) {
+  if (!status) status = sph_neighbors_runs_reserve(&list->runs, more);
+  if (status) return sph_error_set(error, status, "out of memory: neighbour runs");
+  for (int k = 1; k < threads; k++) {
     const sph_runs *share = &nb->scratch[k];
-    if (share->n) memcpy(list->runs.run + offset, share->run, (size_t)share->n * sizeof(sph_run));
     for (long b = blocks * k / threads; b < blocks * (k + 1) / threads; b++)
-      list->first[b] += offset;
-    offset += share->n;
+      list->first[b] += list->runs.n;
+    if (share->n)
+      memcpy(list->runs.run + list->runs.n, share->run, (size_t)share->n * sizeof(sph_run));
+    list->runs.n += share->n;
   }
-  list->first[blocks] = list->runs.n = offset;
+  list->first[blocks] = list->runs.n;
   list->blocks = blocks;
   return SPH_OK;
 }
@@ -77,24 +81,14 @@ int sph_neighbors_build(sph_neighbors *nb, int target, int source, sph_error *er
   const sph_set *t = &nb->set[target], *s = &nb->set[source];
   long blocks = (t->n + nb->def.lanes - 1) / nb->def.lanes;
   sph_neighbors_search *search = nb->brute_force ? search_all : search_of(nb->def.lanes);
-  if (!search)
-    return sph_error_set(error, SPH_ERR_UNBUILT, "no neighbour search with %d lanes in this build",
-                         nb->def.lanes);
   sph_pair_list *list = open_list(nb, target, source, blocks, error);
   if (!list) return SPH_ERR_MEMORY;
-  int threads = nb->def.threads, status = SPH_OK;
-#pragma omp parallel for num_threads(threads) schedule(static) if (blocks > 256)
+  int threads = nb->def.threads;
+#pragma omp parallel for num_threads(threads) schedule(static) if (blocks > PARALLEL_MIN)
   for (int k = 0; k < threads; k++) {
-    nb->scratch[k].n = nb->scratch[k].status = 0;
-    if (s->n)
-      search(nb, t, s, blocks * k / threads, blocks * (k + 1) / threads, list->first,
-             &nb->scratch[k]);
-    else
-      memset(list->first + blocks * k / threads, 0,
-             (size_t)(blocks * (k + 1) / threads - blocks * k / threads) * sizeof(long));
+    sph_runs *share = k == 0 ? &list->runs : &nb->scratch[k];
+    share->n = share->status = 0;
+    search(nb, t, s, blocks * k / threads, blocks * (k + 1) / threads, list->first, share);
   }
-  for (int k = 0; k < threads; k++)
-    if (nb->scratch[k].status) status = nb->scratch[k].status;
-  if (status) return sph_error_set(error, status, "out of memory: neighbour runs");
   return join(nb, list, blocks, error);
 }

@@ -12,7 +12,9 @@ enum { SPH_LANES_MAX = 8, SPH_IMAGES_MAX = 27 };
 typedef struct sph_grid {
   long cells[3];       /* per direction; 1 for d >= dim */
   double origin[3];    /* lower corner [m] */
-  double inverse[3];   /* 1/cell size [1/m] */
+  double size[3];      /* of a cell [m] */
+  double inverse[3];   /* 1/size [1/m] */
+  double rounding[3];  /* points may lie this far outside of their cell [m] */
   double lo[3], hi[3]; /* where the points really are: some may lie outside of the cells */
 } sph_grid;
 
@@ -40,13 +42,19 @@ typedef struct sph_pair_list {
   sph_runs runs;
 } sph_pair_list;
 
+/* Of each number below 256: which bits are set, from the lowest on, and how many. */
+typedef struct sph_bits {
+  int place[256][8], count[256];
+} sph_bits;
+
 struct sph_neighbors {
+  sph_bits bits;
   sph_neighbors_def def;
   int brute_force, images;
   double shift[SPH_IMAGES_MAX][3];
   sph_set set[SPH_SETS_MAX];
   sph_pair_list *list[SPH_SETS_MAX][SPH_SETS_MAX]; /* [target][source]; NULL: never built */
-  sph_runs *scratch;                               /* [threads] */
+  sph_runs *scratch;                               /* [threads]; thread 0 writes into the list */
 };
 
 /* Finds the runs of blocks [begin, end): first[b] counts from the start of out. */
@@ -65,7 +73,9 @@ static inline long sph_grid_cell(const sph_grid *grid, int d, double x)
   return k < (double)grid->cells[d] ? (long)k : grid->cells[d] - 1;
 }
 
-/* Appends a run, or lengthens the last one if it goes on there; not before run number `first`. */
-void sph_neighbors_runs_add(sph_runs *runs, long first, long start, long count, int image);
+/* Makes room for more runs; once it failed, runs->status stays. */
+int sph_neighbors_runs_reserve(sph_runs *runs, long more);
+/* Appends sources start .. start + count - 1: one run, or several where count is too long for one. */
+void sph_neighbors_runs_add(sph_runs *runs, long start, long count, int image);
 
 #endif

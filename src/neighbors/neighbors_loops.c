@@ -1,32 +1,49 @@
 /* The search of one instruction set: a source is kept if any target of the block is within reach of it.
  *
  * Stretches of the sorted order that can hold such sources are tested SPH_LANES sources at a time against every target
- * of the block: the least distance squared to the block, one comparison, one mask. */
+ * of the block: the least distance squared to the block, one comparison, one mask.  With c the middle of the block,
+ * |x_i - x_j|^2 = |y|^2 + (|u|^2 - 2 u.y), u = x_i - c, y = x_j - c: what is in brackets costs three operations a pair.
+ * The reference (SPH_LANES == 1) takes blocks of any size. */
+#include <float.h>
+
 #include "neighbors_data.h"
 #include "sphode/simd.h"
 
-enum { STRETCHES = 512 };
+enum { STRETCHES = 512, COLUMNS = 64, PIECE = 256, MARKS = 8 * PIECE };
+enum {
+  STEP = SPH_LANES_MAX,
+  PARTS = STEP / SPH_LANES
+}; /* sources tested at once; vectors of them */
 
 typedef struct stretch {
   int begin, end; /* sorted places of the source */
 } stretch;
 
 typedef struct block {
-  double x
-      [3]
-      [SPH_LANES]; /* targets, shifted into the source's image; short blocks repeat their last one */
+  double x[3][SPH_LANES_MAX]; /* targets; a short last block repeats its last one */
   double lo[3], hi[3];
 } block;
 
-static block load(const sph_neighbors *nb, const sph_set *target, long b, const double *shift)
+typedef struct probe {
+  double centre[3];
+  double minus_2u[3][SPH_LANES_MAX], uu[SPH_LANES_MAX];
+  double limit; /* on the distance squared */
+} probe;
+
+/* Where "within reach" begins and ends, in turn: sorted places of the source. */
+typedef struct marks {
+  int n, at[MARKS + PIECE + 2 * SPH_LANES_MAX];
+} marks;
+
+BODY block load(int dim, int lanes, const sph_set *target, long b)
 {
   block t = {0};
-  for (int d = 0; d < nb->def.dim; d++) {
+  for (int d = 0; d < dim; d++) {
     t.lo[d] = INFINITY;
     t.hi[d] = -INFINITY;
-    for (int l = 0; l < SPH_LANES; l++) {
-      long s = b * SPH_LANES + l;
-      double x = target->x[d][s < target->n ? s : target->n - 1] - shift[d];
+    for (int l = 0; l < lanes; l++) {
+      long s = b * lanes + l;
+      double x = target->x[d][s < target->n ? s : target->n - 1];
       t.x[d][l] = x;
       t.lo[d] = x < t.lo[d] ? x : t.lo[d];
       t.hi[d] = x > t.hi[d] ? x : t.hi[d];
@@ -35,42 +52,68 @@ static block load(const sph_neighbors *nb, const sph_set *target, long b, const 
   return t;
 }
 
-/* Distance from [lo, hi] to column k of direction d; columns at the edge of the grid go on without end. */
-static double gap(const sph_grid *grid, int d, long k, double lo, double hi)
+BODY block shifted(int dim, int lanes, const block *t, const double *shift)
 {
-  double size = 1 / grid->inverse[d], left = grid->origin[d] + (double)k * size;
-  if (k > 0 && left > hi) return left - hi;
-  if (k < grid->cells[d] - 1 && left + size < lo) return lo - left - size;
-  return 0;
+  block moved = *t;
+  for (int d = 0; d < dim; d++) {
+    for (int l = 0; l < lanes; l++) moved.x[d][l] -= shift[d];
+    moved.lo[d] -= shift[d];
+    moved.hi[d] -= shift[d];
+  }
+  return moved;
+}
+
+BODY int reaches(int dim, double reach, const block *t, const double *shift, const sph_grid *grid)
+{
+  for (int d = 0; d < dim; d++)
+    if (t->lo[d] - shift[d] - grid->hi[d] > reach || grid->lo[d] - (t->hi[d] - shift[d]) > reach)
+      return 0;
+  return 1;
+}
+
+/* Squared distances from [lo, hi] to the columns of direction d that it reaches, *from .. *from + count - 1; columns
+ * at the edge of the grid go on without end.  Returns count, 0: too many. */
+BODY int across(const sph_grid *grid, int d, double lo, double hi, double reach, long *from,
+                double *gap2)
+{
+  long first = sph_grid_cell(grid, d, lo - reach), last = sph_grid_cell(grid, d, hi + reach);
+  if (last - first >= COLUMNS) return 0;
+  for (long k = first; k <= last; k++) {
+    double left = grid->origin[d] + (double)k * grid->size[d], right = left + grid->size[d];
+    double below = k > 0 ? left - hi : 0, above = k < grid->cells[d] - 1 ? lo - right : 0;
+    double gap = (below > above ? below : above) - grid->rounding[d];
+    gap2[k - first] = gap > 0 ? gap * gap : 0;
+  }
+  *from = first;
+  return (int)(last - first + 1);
 }
 
 /* The stretches of all columns that [lo, hi] reaches, in sorted order; the part of a column that it reaches is
  * narrowed by its distance.  Returns how many; STRETCHES + 1: too many. */
-static int columns(const sph_neighbors *nb, const sph_set *source, const double *lo,
-                   const double *hi, stretch *out, int n)
+BODY int columns(int dim, double reach, const sph_set *source, const double *lo, const double *hi,
+                 stretch *out, int n)
 {
   const sph_grid *grid = &source->grid;
-  int dim = nb->def.dim, z = dim - 1;
-  double reach = nb->def.reach;
-  long from[2] = {0, 0}, to[2] = {0, 0};
-  for (int d = 0; d < z; d++) {
-    from[d] = sph_grid_cell(grid, d, lo[d] - reach);
-    to[d] = sph_grid_cell(grid, d, hi[d] + reach);
-  }
-  for (long a = from[0]; a <= to[0]; a++)
-    for (long b = from[1]; b <= to[1]; b++) {
-      double ga = z > 0 ? gap(grid, 0, a, lo[0], hi[0]) : 0,
-             gb = z > 1 ? gap(grid, 1, b, lo[1], hi[1]) : 0;
-      double rest = reach * reach * (1 + 1e-12) - ga * ga - gb * gb;
+  const int z = dim - 1;
+  const double reach2 = reach * reach * (1 + 1e-12);
+  double gap2[2][COLUMNS];
+  long from[2] = {0, 0};
+  int count[2] = {1, 1};
+  gap2[0][0] = gap2[1][0] = 0;
+  for (int d = 0; d < z; d++)
+    if (!(count[d] = across(grid, d, lo[d], hi[d], reach, &from[d], gap2[d]))) return STRETCHES + 1;
+  if (n + count[0] * count[1] > STRETCHES) return STRETCHES + 1;
+  for (int a = 0; a < count[0]; a++)
+    for (int b = 0; b < count[1]; b++) {
+      double rest = reach2 - gap2[0][a] - gap2[1][b];
       if (rest <= 0) continue;
       rest = sqrt(rest) * (1 + 1e-12);
-      long column = z == 0 ? 0 : z == 1 ? a : a * grid->cells[1] + b;
-      long c0 = column * grid->cells[z] + sph_grid_cell(grid, z, lo[z] - rest);
-      long c1 = column * grid->cells[z] + sph_grid_cell(grid, z, hi[z] + rest);
-      stretch s = {source->start[c0], source->start[c1 + 1]};
-      if (s.begin == s.end) continue;
-      if (n == STRETCHES) return STRETCHES + 1;
-      out[n++] = s;
+      long column = z == 0 ? 0 : from[0] + a;
+      if (z == 2) column = column * grid->cells[1] + from[1] + b;
+      const int *start = source->start + column * grid->cells[z];
+      out[n].begin = start[sph_grid_cell(grid, z, lo[z] - rest)];
+      out[n].end = start[sph_grid_cell(grid, z, hi[z] + rest) + 1];
+      n += out[n].begin < out[n].end;
     }
   return n;
 }
@@ -94,87 +137,169 @@ static int merge(stretch *s, int n)
   return n ? last + 1 : 0;
 }
 
-/* All sources that can be near the block.  Where its targets lie far apart (at the end of a column, far flyers) each
- * is searched for on its own. */
-static int candidates(const sph_neighbors *nb, const sph_set *source, const block *t, stretch *out)
+BODY int compact(int dim, double reach, const double *lo, const double *hi)
 {
-  int apart = 0, n = 0;
-  for (int d = 0; d < nb->def.dim; d++) apart |= t->hi[d] - t->lo[d] > 1.5 * nb->def.reach;
-  if (!apart) return columns(nb, source, t->lo, t->hi, out, 0);
-  for (int l = 0; l < SPH_LANES && n <= STRETCHES; l++) {
-    double x[3] = {0};
-    for (int d = 0; d < nb->def.dim; d++) x[d] = t->x[d][l];
-    n = columns(nb, source, x, x, out, n);
+  int is = 1;
+  for (int d = 0; d < dim; d++) is &= hi[d] - lo[d] <= 1.5 * reach;
+  return is;
+}
+
+/* Box [lo, hi] of targets l, l + 1, ... as long as it stays compact; returns the first that is not in it. */
+BODY int part(int dim, int lanes, double reach, const block *t, int l, double *lo, double *hi)
+{
+  for (int d = 0; d < dim; d++) lo[d] = hi[d] = t->x[d][l];
+  while (++l < lanes) {
+    double low[3] = {0}, high[3] = {0};
+    for (int d = 0; d < dim; d++) {
+      low[d] = fmin(lo[d], t->x[d][l]);
+      high[d] = fmax(hi[d], t->x[d][l]);
+    }
+    if (!compact(dim, reach, low, high)) break;
+    memcpy(lo, low, sizeof low);
+    memcpy(hi, high, sizeof high);
+  }
+  return l;
+}
+
+/* All sources that can be near the block.  Where its targets lie apart (a column ends, far flyers) the search is for
+ * one compact part after the other. */
+BODY int candidates(int dim, int lanes, double reach, const sph_set *source, const block *t,
+                    stretch *out)
+{
+  if (compact(dim, reach, t->lo, t->hi)) return columns(dim, reach, source, t->lo, t->hi, out, 0);
+  int n = 0;
+  for (int l = 0; l < lanes && n <= STRETCHES;) {
+    double lo[3] = {0}, hi[3] = {0};
+    l = part(dim, lanes, reach, t, l, lo, hi);
+    n = columns(dim, reach, source, lo, hi, out, n);
   }
   return n <= STRETCHES ? merge(out, n) : n;
 }
 
-/* Bit l: source s + l is within reach of a target. */
-BODY unsigned near(int dim, const sph_set *source, const block *t, int s, double reach2)
+/* The limit leaves room for rounding: the terms are at most about (|u| + |y|)^2, each to a few DBL_EPSILON. */
+BODY probe make_probe(int dim, int lanes, double reach, const block *t)
 {
-  vec least = v_set(INFINITY), x[3];
-  for (int d = 0; d < dim; d++) x[d] = v_load(source->x[d] + s);
-#pragma GCC unroll 8
-  for (int l = 0; l < SPH_LANES; l++) {
-    vec r2 = v_set(0);
+  probe p = {0};
+  double size = 2 * reach;
+  for (int d = 0; d < dim; d++) {
+    p.centre[d] = 0.5 * (t->lo[d] + t->hi[d]);
+    size += t->hi[d] - t->lo[d];
+    for (int l = 0; l < lanes; l++) {
+      double u = t->x[d][l] - p.centre[d];
+      p.minus_2u[d][l] = -2 * u;
+      p.uu[l] += u * u;
+    }
+  }
+  p.limit = reach * reach * (1 + 1e-12) + 64 * DBL_EPSILON * size * size;
+  return p;
+}
+
+/* Bit k: source s + k is within reach of a target, k < STEP. */
+BODY unsigned near(int dim, int lanes, const sph_set *source, const probe *p, int s)
+{
+  vec least[PARTS], y[PARTS][3], yy[PARTS];
+  for (int k = 0; k < PARTS; k++) {
+    least[k] = v_set(INFINITY);
+    yy[k] = v_set(0);
     for (int d = 0; d < dim; d++) {
-      vec r = x[d] - t->x[d][l];
-      r2 += r * r;
-    }
-    least = v_min(least, r2);
-  }
-  return v_bits((vec_mask)(least <= reach2));
-}
-
-BODY void test(int dim, const sph_set *source, const block *t, stretch s, double reach2, long first,
-               int image, sph_runs *out)
-{
-  for (int j = s.begin; j < s.end; j += SPH_LANES) {
-    unsigned bits = near(dim, source, t, j, reach2);
-    if (s.end - j < SPH_LANES) bits &= (1u << (s.end - j)) - 1;
-    while (bits) {
-      int start = __builtin_ctz(bits), count = __builtin_ctz(~(bits >> start));
-      sph_neighbors_runs_add(out, first, j + start, count, image);
-      bits &= ~(((1u << count) - 1) << start);
+      y[k][d] = v_load(source->x[d] + s + k * SPH_LANES) - p->centre[d];
+      yy[k] += y[k][d] * y[k][d];
     }
   }
+#pragma GCC unroll 8
+  for (int l = 0; l < lanes; l++)
+    for (int k = 0; k < PARTS; k++) {
+      vec bracket = v_set(p->uu[l]);
+      for (int d = 0; d < dim; d++) bracket += y[k][d] * p->minus_2u[d][l];
+      least[k] = v_min(least[k], bracket);
+    }
+  unsigned bits = 0;
+  for (int k = 0; k < PARTS; k++)
+    bits |= v_bits((vec_mask)(yy[k] + least[k] <= p->limit)) << (k * SPH_LANES);
+  return bits;
 }
 
-static void test_stretch(const sph_neighbors *nb, const sph_set *source, const block *t, stretch s,
-                         long first, int image, sph_runs *out)
+/* Marks where the bits change; at most PIECE sources.  All STEP places are written, only the changes are kept: how
+ * many there are is hard to foretell for a processor. */
+BODY void test(int dim, int lanes, const sph_set *source, const probe *p, stretch s,
+               const sph_bits *list, marks *restrict m)
 {
-  double reach2 = nb->def.reach * nb->def.reach * (1 + 1e-12);
-  if (nb->def.dim == 1) test(1, source, t, s, reach2, first, image, out);
-  if (nb->def.dim == 2) test(2, source, t, s, reach2, first, image, out);
-  if (nb->def.dim == 3) test(3, source, t, s, reach2, first, image, out);
+  unsigned inside = 0;
+  int *at = m->at + m->n;
+  for (int j = s.begin; j < s.end; j += STEP) {
+    unsigned bits = near(dim, lanes, source, p, j);
+    if (s.end - j < STEP) bits &= (1u << (s.end - j)) - 1;
+    unsigned changes = (bits ^ (bits << 1 | inside)) & ((1u << STEP) - 1);
+    inside = bits >> (STEP - 1);
+    for (int k = 0; k < STEP; k++) at[k] = j + list->place[changes][k];
+    at += list->count[changes];
+  }
+  if (inside) *at++ = s.end;
+  m->n = (int)(at - m->at);
 }
 
-static int image_reaches(const sph_neighbors *nb, const sph_set *source, const block *t)
+/* Marks become runs; a run that goes on where the last one ended lengthens it. */
+static void add_runs(marks *m, int image, sph_runs *out)
 {
-  for (int d = 0; d < nb->def.dim; d++)
-    if (t->lo[d] - source->grid.hi[d] > nb->def.reach ||
-        source->grid.lo[d] - t->hi[d] > nb->def.reach)
-      return 0;
-  return 1;
+  long n = m->n / 2;
+  m->n = 0;
+  if (n == 0 || sph_neighbors_runs_reserve(out, n)) return;
+  sph_run *last = out->run + out->n;
+  int end = -1;
+  for (const int *at = m->at; at < m->at + 2 * n; at += 2) {
+    int count = at[1] - at[0];
+    if (at[0] == end)
+      last[-1].count = (last[-1].count + (unsigned)count) & 0xffffff;
+    else
+      *last++ = (sph_run){at[0], (unsigned)count & 0xffffff, (unsigned)image & 255};
+    end = at[1];
+  }
+  out->n = last - out->run;
+}
+
+BODY void search_image(int dim, int lanes, double reach, const sph_set *source, const block *t,
+                       int image, const sph_bits *bits, marks *m, sph_runs *out)
+{
+  stretch found[STRETCHES];
+  int n = candidates(dim, lanes, reach, source, t, found);
+  if (n > STRETCHES) { /* cells far smaller than the reach: all of it */
+    found[0] = (stretch){0, (int)source->n};
+    n = 1;
+  }
+  const probe p = make_probe(dim, lanes, reach, t);
+  for (int k = 0; k < n; k++)
+    for (stretch s = {found[k].begin, 0}; s.begin < found[k].end; s.begin = s.end) {
+      s.end = found[k].end - s.begin > PIECE ? s.begin + PIECE : found[k].end;
+      test(dim, lanes, source, &p, s, bits, m);
+      if (m->n > MARKS) add_runs(m, image, out);
+    }
+  add_runs(m, image, out);
+}
+
+BODY void search_blocks(int dim, int lanes, const sph_neighbors *nb, const sph_set *target,
+                        const sph_set *source, long begin, long end, long *first, sph_runs *out)
+{
+  const double reach = nb->def.reach;
+  marks m;
+  m.n = 0;
+  for (long b = begin; b < end; b++) {
+    first[b] = out->n;
+    const block t = load(dim, lanes, target, b);
+    for (int image = 0; image < nb->images; image++) {
+      if (!reaches(dim, reach, &t, nb->shift[image], &source->grid)) continue;
+      const block here = shifted(dim, lanes, &t, nb->shift[image]);
+      search_image(dim, lanes, reach, source, &here, image, &nb->bits, &m, out);
+    }
+  }
 }
 
 static void search(const sph_neighbors *nb, const sph_set *target, const sph_set *source,
                    long begin, long end, long *first, sph_runs *out)
 {
-  stretch found[STRETCHES];
-  for (long b = begin; b < end; b++) {
-    first[b] = out->n;
-    for (int m = 0; m < nb->images; m++) {
-      const block t = load(nb, target, b, nb->shift[m]);
-      if (!image_reaches(nb, source, &t)) continue;
-      int n = candidates(nb, source, &t, found);
-      if (n > STRETCHES) { /* a very coarse grid: all of it */
-        found[0] = (stretch){0, (int)source->n};
-        n = 1;
-      }
-      for (int k = 0; k < n; k++) test_stretch(nb, source, &t, found[k], first[b], m, out);
-    }
-  }
+  const int lanes = SPH_LANES == 1 ? nb->def.lanes : SPH_LANES;
+  if (nb->def.dim == 1) search_blocks(1, lanes, nb, target, source, begin, end, first, out);
+  if (nb->def.dim == 2) search_blocks(2, lanes, nb, target, source, begin, end, first, out);
+  if (nb->def.dim == 3) search_blocks(3, lanes, nb, target, source, begin, end, first, out);
 }
 
 const sph_neighbors_table SPH_ISA_NAME(sph_neighbors_loops) = {search};

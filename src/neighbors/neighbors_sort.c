@@ -1,11 +1,13 @@
 /* One counting sort into the cells of a grid: stable, so that ties go by the point's index. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "memory.h"
 #include "neighbors_data.h"
 
-static const double FAR_AWAY = 1e150; /* its square is still finite */
+enum { CELLS_MAX = 1000000000, SAMPLE = 16384 };
+static const double FAR_AWAY = 1e150; /* [m]; its square is still finite */
 
 static int reserve(sph_neighbors *nb, sph_set *set, long n, sph_error *error)
 {
@@ -40,15 +42,25 @@ static void wrap(const sph_neighbors *nb, sph_set *set, const double *const x[])
       set->wrap[d][i] = floor((x[d][i] - nb->def.origin[d]) / nb->def.length[d]);
 }
 
+/* Not finite, or so far away that double precision cannot place it. */
+static int lost(const sph_neighbors *nb, const sph_set *set, const double *const x[], int d, long i)
+{
+  if (nb->def.periodic[d]) return !(fabs(set->wrap[d][i]) < 1e12);
+  return !(fabs(x[d][i]) < FAR_AWAY);
+}
+
 static int find_bounds(const sph_neighbors *nb, sph_set *set, const double *const x[],
                        sph_error *error)
 {
   for (int d = 0; d < nb->def.dim; d++) {
     double lo = INFINITY, hi = -INFINITY;
     for (long i = 0; i < set->n; i++) {
+      if (lost(nb, set, x, d, i))
+        return sph_error_set(error, SPH_RETRY,
+                             "coordinate %d of point %ld is %g m; right is a finite number not "
+                             "extremely far away",
+                             d, i, x[d][i]);
       double a = wrapped(nb, set, x, d, i);
-      if (!(fabs(a) < FAR_AWAY))
-        return sph_error_set(error, SPH_RETRY, "coordinate %d of point %ld is %g", d, i, x[d][i]);
       lo = a < lo ? a : lo;
       hi = a > hi ? a : hi;
     }
@@ -58,36 +70,46 @@ static int find_bounds(const sph_neighbors *nb, sph_set *set, const double *cons
   return SPH_OK;
 }
 
-/* The interval of direction d that leaves out at most `out` points at either end, by zooming histograms. */
-static void core(const sph_neighbors *nb, const sph_set *set, const double *const x[], int d,
-                 long out, double *lo, double *hi)
+/* Number k of a sample that is spread over all points as if by chance, always the same (multiples of the golden
+ * section). */
+static long sample(long k, long n)
 {
-  enum { BINS = 512, ZOOMS = 12 };
+  if (n <= SAMPLE) return k;
+  uint64_t fraction = (uint64_t)k * 0x9e3779b97f4a7c15u >> 32; /* of 2^32 */
+  return (long)(fraction * (uint64_t)n >> 32);
+}
+
+/* The interval of direction d that leaves out about one in `share` points at either end, by zooming histograms. */
+static void core(const sph_neighbors *nb, const sph_set *set, const double *const x[], int d,
+                 long share, double *lo, double *hi)
+{
+  enum { BINS = 512, ZOOMS = 40 };
+  long samples = set->n < SAMPLE ? set->n : SAMPLE, out = samples / share + 1;
   long below = 0, above = 0; /* left out already */
-  for (int zoom = 0; zoom<ZOOMS && * hi> * lo; zoom++) {
+  for (int zoom = 0; zoom < ZOOMS; zoom++) {
     long count[BINS] = {0}, a = 0, b = BINS - 1;
-    double scale = BINS / (*hi - *lo), width = (*hi - *lo) / BINS;
+    double width = (*hi - *lo) / BINS, scale = 1 / width;
     if (!(scale < INFINITY)) return;
-    for (long i = 0; i < set->n; i++) {
-      double at = (wrapped(nb, set, x, d, i) - *lo) * scale;
+    for (long k = 0; k < samples; k++) {
+      double at = (wrapped(nb, set, x, d, sample(k, set->n)) - *lo) * scale;
       if (at >= 0 && at <= BINS) count[at < BINS ? (int)at : BINS - 1]++;
     }
     while (a < b && below + count[a] <= out) below += count[a++];
     while (b > a && above + count[b] <= out) above += count[b--];
-    if (a == 0 && b == BINS - 1) return;
     *hi = *lo + (double)(b + 1) * width;
     *lo += (double)a * width;
+    if (b - a >= BINS / 2) return;
   }
 }
 
-/* Cell sizes: columns of 2 dx in 3D, 3 dx in 2D; fine cells of dx/4. */
+/* Cell sizes: columns of 2 dx in 3D, 3 dx in 2D, fine cells of dx/4; not too many within reach. */
 static double cell_size(const sph_neighbors *nb, int d)
 {
   if (d == nb->def.dim - 1) return nb->def.dx / 4;
-  return (nb->def.dim == 3 ? 2 : 3) * nb->def.dx;
+  return fmax((nb->def.dim == 3 ? 2 : 3) * nb->def.dx, nb->def.reach / 8);
 }
 
-/* Number of cells (as a double: it may be huge) of a grid over [lo, hi] with cells `coarser` times as large. */
+/* Lays cells `coarser` times as large over [lo, hi]; returns how many (a double: it may be huge). */
 static double lay(const sph_neighbors *nb, sph_grid *grid, const double *lo, const double *hi,
                   double coarser)
 {
@@ -98,8 +120,10 @@ static double lay(const sph_neighbors *nb, sph_grid *grid, const double *lo, con
     double size = cell_size(nb, d) * coarser, count = floor((hi[d] - lo[d]) / size) + 1;
     total *= count;
     grid->origin[d] = lo[d];
+    grid->size[d] = size;
     grid->inverse[d] = 1 / size;
-    if (count < 1e9) grid->cells[d] = (long)count;
+    grid->rounding[d] = 8 * DBL_EPSILON * (fabs(lo[d]) + fabs(hi[d]) + size);
+    if (count <= CELLS_MAX) grid->cells[d] = (long)count;
   }
   return total;
 }
@@ -108,13 +132,13 @@ static double lay(const sph_neighbors *nb, sph_grid *grid, const double *lo, con
  * thinly spread over a large space) the cells become coarser. */
 static void choose_grid(const sph_neighbors *nb, sph_set *set, const double *const x[])
 {
-  double most = 8 * (double)set->n + 4096, lo[3] = {0}, hi[3] = {0};
+  double most = fmin(8 * (double)set->n + 4096, CELLS_MAX), lo[3] = {0}, hi[3] = {0};
   memcpy(lo, set->grid.lo, sizeof lo);
   memcpy(hi, set->grid.hi, sizeof hi);
   double total = lay(nb, &set->grid, lo, hi, 1);
   for (long share = 256; total > most && share >= 4; share /= 4) {
     for (int d = 0; d < nb->def.dim; d++)
-      if (!nb->def.periodic[d]) core(nb, set, x, d, set->n / share + 1, &lo[d], &hi[d]);
+      if (!nb->def.periodic[d]) core(nb, set, x, d, share, &lo[d], &hi[d]);
     total = lay(nb, &set->grid, lo, hi, 1);
   }
   for (double coarser = 2; total > most; coarser *= 2) total = lay(nb, &set->grid, lo, hi, coarser);
