@@ -1,4 +1,4 @@
-/* sphode/eos.h -- equations of state p(rho, u), c(rho, u); equations.md section 4.
+/* sphode/eos.h -- equations of state p(rho, u), c(rho, u); docs/theory.md, Equations of state.
  *
  * A built-in one and a user's own are the same struct, returned and copied by value; it is checked
  * where it is attached (sph_group_set_eos), so that the error sticks to the simulation. */

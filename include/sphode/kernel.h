@@ -1,4 +1,4 @@
-/* sphode/kernel.h -- smoothing kernels W(r, h) and their derivatives; equations.md section 1.
+/* sphode/kernel.h -- smoothing kernels W(r, h) and their derivatives; docs/theory.md, Kernels.
  *
  *   W = (sigma_d/h^d) w(q),  q = r/h,  W = 0 for q >= kappa;  all kernels integrate to 1. */
 #ifndef SPHODE_KERNEL_H

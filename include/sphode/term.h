@@ -1,4 +1,4 @@
-/* sphode/term.h -- the terms of the right-hand side.
+/* sphode/term.h -- the terms of the right-hand side; docs/theory.md, Terms.
  *
  * sph_term_*() return small definitions by value; they are checked where they are attached
  * (sph_sim_add_term). */
@@ -47,21 +47,20 @@ struct sph_term {
   void (*free)(void *); /* called once with ctx when the simulation lets go of it; may be NULL */
 };
 
-/* d rho_i/dt: "c2": rho_i sum V_j v_ij.grad W;  "c1": sum m_j v_ij.grad W.  equations.md 3.1 */
+/* d rho_i/dt: "c2": rho_i sum V_j v_ij.grad W;  "c1": sum m_j v_ij.grad W */
 SPH_API sph_term sph_term_continuity(void);
 SPH_API sph_term sph_term_continuity_form(const char *form);
 /* a_i: "c2": - sum m_j (p_i + p_j)/(rho_i rho_j) grad W;
  *      "s":  - sum m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W;
- * thermal fluids are heated by the partner of the same row.  equations.md 3.1 */
+ * thermal fluids are heated by the partner of the same row. */
 SPH_API sph_term sph_term_pressure(void);
 SPH_API sph_term sph_term_pressure_form(const char *form);
-/* Monaghan (1992) artificial viscosity with heating; alpha, beta >= 0.  equations.md 5.1 */
+/* Monaghan (1992) artificial viscosity with heating; alpha, beta >= 0. */
 SPH_API sph_term sph_term_viscosity_artificial(double alpha, double beta);
-/* Price (2008) artificial conductivity of thermal fluids; alpha_u >= 0, usually 1.  equations.md
- * 5.8 */
+/* Price (2008) artificial conductivity of thermal fluids; alpha_u >= 0, usually 1. */
 SPH_API sph_term sph_term_conductivity_artificial(double alpha_u);
-/* Density diffusion of the delta-SPH family: model "molteni" or "antuono"; delta >= 0, usually 0.1.
- * equations.md 6 */
+/* Density diffusion of the delta-SPH family: model "molteni" or "antuono"; delta >= 0, usually
+ * 0.1. */
 SPH_API sph_term sph_term_delta(const char *model, double delta);
 /* Uniform body force g[3] [m/s^2]. */
 SPH_API sph_term sph_term_gravity(const double g[3]);

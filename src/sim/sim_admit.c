@@ -51,7 +51,7 @@ static extremes look(const sph_sim *sim, const sph_view *view)
 {
   double v2_max = 0, a2_max = 0, speed_max = 0, damping = 1 + 0.6 * sim->terms.alpha;
   long bad = 0, n = view->n;
-#pragma omp parallel for num_threads(sim->threads) schedule(static)                                    \
+#pragma omp parallel for num_threads(sim->threads) schedule(static)                                \
     reduction(max : v2_max, a2_max, speed_max) reduction(+ : bad) if (n > PARALLEL_MIN)
   for (long i = 0; i < n; i++) {
     double v2 = 0, a2 = 0;

@@ -9,7 +9,8 @@ enum { PARALLEL_MIN = 4096, CHUNK = 2048 };
 static long not_positive(const double *a, long n, int threads)
 {
   long bad = 0;
-#pragma omp parallel for num_threads(threads) schedule(static) reduction(+ : bad) if (n > PARALLEL_MIN)
+#pragma omp parallel for num_threads(threads) schedule(static) reduction(+ : bad)                  \
+    if (n > PARALLEL_MIN)
   for (long i = 0; i < n; i++) bad += !(a[i] > 0 && a[i] < INFINITY);
   return bad;
 }
