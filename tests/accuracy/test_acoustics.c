@@ -1,9 +1,12 @@
-/* Sound on a lattice has a frequency known in closed form: the linear response of the right-hand side to a standing
- * wave of wave number k, with density rho0 (1 + e cos kx) or velocity e sin kx, is
+/* Sound on a lattice has a frequency known in closed form: the linear response of the right-hand
+ * side to a standing wave of wave number k, with density rho0 (1 + e cos kx) or velocity e sin kx,
+ * is
  *
- *   d rho/dt = - e rho0 (omega/c0) cos kx,   a = e c0 omega sin kx,   omega = c0 |sum_j V r_ij F_ij sin(k r_ij)|
+ *   d rho/dt = - e rho0 (omega/c0) cos kx,   a = e c0 omega sin kx,
+ *   omega = c0 |sum_j V r_ij F_ij sin(k r_ij)|
  *
- * (p = 0 at rest).  All sums run over the lattice here, with the kernels' polynomials written out again. */
+ * (p = 0 at rest).  All sums run over the lattice here, with the kernels' polynomials written out
+ * again. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -98,7 +101,8 @@ static void all_waves(void **state)
       }
 }
 
-/* With h/dx large, the kernel's own dispersion: its transform is 1 - (k h sigma_k)^2/2, sigma_k^2 = 8/21. */
+/* With h/dx large, the kernel's own dispersion: its transform is 1 - (k h sigma_k)^2/2, sigma_k^2 =
+ * 8/21. */
 static void long_waves(void **state)
 {
   (void)state;

@@ -1,9 +1,10 @@
-/* A column of water a wide and 2a high falls: its front against the experiments of Martin & Moyce (1952) and of
- * Koshizuka & Oka (1996), up to T = t sqrt(2g/a) = 3.2.
+/* A column of water a wide and 2a high falls: its front against the experiments of Martin & Moyce
+ * (1952) and of Koshizuka & Oka (1996), up to T = t sqrt(2g/a) = 3.2.
  *
- * H = 2a, H/dx = 40 and 80 (SPHODE_TEST_LONG=1: and 160).  An experiment may start late: one offset 0 <= T0 <= 0.5 each, the one
- * that fits best.  Error: root mean square of z(T - T0) - z_exp over (largest z_exp - 1), z = front/a.  The three
- * experiments differ among themselves by 5 %.  Front: largest x with 3 neighbours within 2 dx, + dx/2. */
+ * H = 2a, H/dx = 40 and 80 (SPHODE_TEST_LONG=1: and 160).  An experiment may start late: one offset
+ * 0 <= T0 <= 0.5 each, the one that fits best.  Error: root mean square of z(T - T0) - z_exp over
+ * (largest z_exp - 1), z = front/a.  The three experiments differ among themselves by 5 %.  Front:
+ * largest x with 3 neighbours within 2 dx, + dx/2. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* An adaptive dam break with a moving wall, to the last bit: the same with 1, 2 and 3 threads, and the same whether
- * somebody looks at it or not. */
+/* An adaptive dam break with a moving wall, to the last bit: the same with 1, 2 and 3 threads, and
+ * the same whether somebody looks at it or not. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

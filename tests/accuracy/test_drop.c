@@ -1,10 +1,12 @@
-/* A drop of liquid under the central force -omega^2 r that stretches and shrinks as an ellipse: semi-axes over one
- * period against the exact pair of ordinary differential equations (Monaghan & Rafiee 2013 and others).
+/* A drop of liquid under the central force -omega^2 r that stretches and shrinks as an ellipse:
+ * semi-axes over one period against the exact pair of ordinary differential equations (Monaghan &
+ * Rafiee 2013 and others).
  *
- * R/dx = 20, h/dx = 2, rate = omega.  Error: root mean square over the period and both axes, divided by the largest
- * semi-axis: bar 2e-3 without viscosity.  With alpha = 0.02 (bar 0.01; the exact drop is inviscid) the energy falls by
- * 4 nu rate^2 per mass and time, nu = alpha h c0/16: the equivalent of Monaghan's viscosity in 2D, alpha h c0/8, for
- * approaching pairs only.  Angular momentum and the place of the drop stay. */
+ * R/dx = 20, h/dx = 2, rate = omega.  Error: root mean square over the period and both axes,
+ * divided by the largest semi-axis: bar 2e-3 without viscosity.  With alpha = 0.02 (bar 0.01; the
+ * exact drop is inviscid) the energy falls by 4 nu rate^2 per mass and time, nu = alpha h c0/16:
+ * the equivalent of Monaghan's viscosity in 2D, alpha h c0/8, for approaching pairs only.  Angular
+ * momentum and the place of the drop stay. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -58,7 +60,8 @@ static double semi_axis(const sph_group *water, int axis)
   return 2 * sqrt(sum / mass);
 }
 
-/* Runs one period: error of the semi-axes, and energy lost [of the start]; strain: integral of rate^2 [1/s]. */
+/* Runs one period: error of the semi-axes, and energy lost [of the start]; strain: integral of
+ * rate^2 [1/s]. */
 static double oscillate(double viscosity, double *lost, double *strain)
 {
   sph_sim *sim = drop(viscosity);

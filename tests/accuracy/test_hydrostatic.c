@@ -1,7 +1,8 @@
-/* Water at rest in a tank, H/dx = 20, from the exact column of its equation of state: it must stay at rest.
+/* Water at rest in a tank, H/dx = 20, from the exact column of its equation of state: it must stay
+ * at rest.
  *
- * Bars: L1(p) = mean |p - p_exact|/(rho0 g H) <= 0.4 % and kinetic energy <= 1e-6 of the potential one, at
- * t sqrt(g/H) = 40; SPHODE_TEST_LONG=1: at 120. */
+ * Bars: L1(p) = mean |p - p_exact|/(rho0 g H) <= 0.4 % and kinetic energy <= 1e-6 of the potential
+ * one, at t sqrt(g/H) = 40; SPHODE_TEST_LONG=1: at 120. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

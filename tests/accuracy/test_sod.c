@@ -1,9 +1,10 @@
-/* Sod's shock tube (1978), gamma = 1.4, 400 particles on [-1/2, 1/2] at equal distances (masses 8:1), constant h:
- * against the exact solution at t = 0.2.  h = 2.75 dx: the gas thins to 2.35 dx between particles, and with fewer than
- * two neighbours on each side the fan breaks into steps (h = 1.5 dx: L1(rho) = 0.022).
+/* Sod's shock tube (1978), gamma = 1.4, 400 particles on [-1/2, 1/2] at equal distances (masses
+ * 8:1), constant h: against the exact solution at t = 0.2.  h = 2.75 dx: the gas thins to 2.35 dx
+ * between particles, and with fewer than two neighbours on each side the fan breaks into steps (h =
+ * 1.5 dx: L1(rho) = 0.022).
  *
- * The box is periodic and twice as long: the second pair of waves, from its ends, does not reach the part that is
- * compared.  Bars: L1(rho) <= 0.01, plateaus 2 %. */
+ * The box is periodic and twice as long: the second pair of waves, from its ends, does not reach
+ * the part that is compared.  Bars: L1(rho) <= 0.01, plateaus 2 %. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
