@@ -26,7 +26,7 @@ typedef struct sph_sim_def {
   double origin[3];   /* lower corner of the periodic box [m] */
   double length[3];   /* its lengths [m] */
   double speed; /* reference speed V for error weights [m/s]; 0: max(sqrt(g height), 0.01 c0) */
-  double skin;  /* of the neighbour lists, in h; < 0: none; 0: 0.15 */
+  double skin;  /* of the neighbour lists, in h; < 0: none; 0: 0.2 */
   const char *neighbors; /* NULL: "blocks"; "brute-force": the reference */
   const char *isa; /* NULL: what the CPU has (or SPHODE_ISA); "reference": one lane, plain loops */
 } sph_sim_def;

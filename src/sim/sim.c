@@ -48,7 +48,7 @@ static void set_lengths(sph_sim *sim, const sph_sim_def *def)
     sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "skin = %g is not finite", def->skin);
     return;
   }
-  sim->skin = (def->skin < 0 ? 0 : def->skin == 0 ? 0.15 : def->skin) * sim->h;
+  sim->skin = (def->skin < 0 ? 0 : def->skin == 0 ? 0.2 : def->skin) * sim->h;
   if (!(def->speed >= 0 && def->speed < INFINITY))
     sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "speed = %g; right is a finite number >= 0",
                   def->speed);
