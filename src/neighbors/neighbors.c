@@ -184,7 +184,7 @@ static long place_of(const sph_set *set, long i)
   return -1;
 }
 
-/* Writes the sources within reach of sorted place t from `begin` on in that image; to NULL: only counts. */
+/* Writes the sources in [begin, end) within reach of sorted place t; to NULL: only counts. */
 static long collect(const sph_neighbors *nb, int target, int source, long t, int image, long begin,
                     long end, found *to)
 {

@@ -1,4 +1,4 @@
-/* Lists target <- source: static shares of the blocks, one for each thread, put together in order. */
+/* Lists target <- source: a share of the blocks for each thread, put together in order. */
 #include <string.h>
 
 #include "memory.h"
@@ -9,7 +9,8 @@ enum { PARALLEL_MIN = 256 }; /* blocks */
 #define DECLARE(isa) extern const sph_neighbors_table sph_neighbors_loops_##isa;
 SPH_ISA_BUILT(DECLARE)
 
-/* The fastest instance of that many lanes that this processor runs; else the reference, which takes any number. */
+/* The fastest instance of that many lanes that this processor runs; else the reference, which
+ * takes any number. */
 static sph_neighbors_search *search_of(int lanes)
 {
   sph_neighbors_search *search = sph_neighbors_loops_reference.search;
@@ -49,7 +50,7 @@ static sph_pair_list *open_list(sph_neighbors *nb, int target, int source, long 
   return *list;
 }
 
-/* Puts the shares of threads 1, 2, ... behind that of thread 0, which stands in the list already. */
+/* Puts the shares of threads 1, 2, ... behind that of thread 0, which is in the list already. */
 static int join(sph_neighbors *nb, sph_pair_list *list, long blocks, sph_error *error)
 {
   int threads = nb->def.threads, status = list->runs.status;

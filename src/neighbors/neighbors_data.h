@@ -1,7 +1,8 @@
 /* neighbors_data.h -- what a neighbour search holds.  Internal: files of neighbors/ share it.
  *
- * Sorted axes: the last coordinate is cut into fine cells, the others into columns; cell numbers run fastest along the
- * fine axis, so that a stretch of a column is one stretch of the sorted order. */
+ * Sorted axes: the last coordinate is cut into fine cells, the others into columns; cell numbers
+ * run fastest along the fine axis, so that a stretch of a column is one stretch of the sorted
+ * order. */
 #ifndef SPH_NEIGHBORS_DATA_H
 #define SPH_NEIGHBORS_DATA_H
 #include "cpu.h"
@@ -24,7 +25,7 @@ typedef struct sph_set {
   int *order;      /* [room] */
   int *cell;       /* [room] of point i, not sorted */
   double *wrap[3]; /* [room] not sorted; NULL unless periodic */
-  double *x[3];    /* [room + SPH_LANES_MAX] sorted, wrapped; behind n: far away */
+  double *x[3];    /* [room + SPH_LANES_MAX] sorted, wrapped; loads go beyond n */
   sph_grid grid;
   int *start; /* [cells + 1] first sorted place of each cell */
   long start_room;
@@ -65,7 +66,7 @@ typedef struct sph_neighbors_table {
   sph_neighbors_search *search;
 } sph_neighbors_table;
 
-/* Cell of coordinate x along direction d, clamped into the grid: monotone, so that no near pair is lost. */
+/* Cell of coordinate x of direction d, clamped into the grid: monotone, so that no pair is lost. */
 static inline long sph_grid_cell(const sph_grid *grid, int d, double x)
 {
   double k = (x - grid->origin[d]) * grid->inverse[d];
@@ -75,7 +76,7 @@ static inline long sph_grid_cell(const sph_grid *grid, int d, double x)
 
 /* Makes room for more runs; once it failed, runs->status stays. */
 int sph_neighbors_runs_reserve(sph_runs *runs, long more);
-/* Appends sources start .. start + count - 1: one run, or several where count is too long for one. */
+/* Appends sources start .. start + count - 1: one run, or several where it is too long for one. */
 void sph_neighbors_runs_add(sph_runs *runs, long start, long count, int image);
 
 #endif

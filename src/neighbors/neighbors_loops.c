@@ -1,9 +1,11 @@
-/* The search of one instruction set: a source is kept if any target of the block is within reach of it.
+/* The search of one instruction set: a source is kept if a target of the block is within reach.
  *
- * Stretches of the sorted order that can hold such sources are tested SPH_LANES sources at a time against every target
- * of the block: the least distance squared to the block, one comparison, one mask.  With c the middle of the block,
- * |x_i - x_j|^2 = |y|^2 + (|u|^2 - 2 u.y), u = x_i - c, y = x_j - c: what is in brackets costs three operations a pair.
- * The reference (SPH_LANES == 1) takes blocks of any size. */
+ * Stretches of the sorted order that can hold such sources are tested STEP sources at a time
+ * against every target of the block: the least distance squared to the block, one comparison, one
+ * mask.  With c the middle of the block, u = x_i - c, y = x_j - c,
+ *   |x_i - x_j|^2 = |y|^2 + (|u|^2 - 2 u.y):
+ * what is in brackets costs three operations a pair.  The reference (SPH_LANES == 1) takes blocks
+ * of any size. */
 #include <float.h>
 
 #include "neighbors_data.h"
@@ -71,8 +73,8 @@ BODY int reaches(int dim, double reach, const block *t, const double *shift, con
   return 1;
 }
 
-/* Squared distances from [lo, hi] to the columns of direction d that it reaches, *from .. *from + count - 1; columns
- * at the edge of the grid go on without end.  Returns count, 0: too many. */
+/* Squared distances from [lo, hi] to the columns of direction d that it reaches, *from .. *from +
+ * count - 1; columns at the edge of the grid go on without end.  Returns count, 0: too many. */
 BODY int across(const sph_grid *grid, int d, double lo, double hi, double reach, long *from,
                 double *gap2)
 {
@@ -88,8 +90,8 @@ BODY int across(const sph_grid *grid, int d, double lo, double hi, double reach,
   return (int)(last - first + 1);
 }
 
-/* The stretches of all columns that [lo, hi] reaches, in sorted order; the part of a column that it reaches is
- * narrowed by its distance.  Returns how many; STRETCHES + 1: too many. */
+/* The stretches of all columns that [lo, hi] reaches, in sorted order; the part of a column that
+ * it reaches is narrowed by its distance.  Returns how many; STRETCHES + 1: too many. */
 BODY int columns(int dim, double reach, const sph_set *source, const double *lo, const double *hi,
                  stretch *out, int n)
 {
@@ -144,7 +146,7 @@ BODY int compact(int dim, double reach, const double *lo, const double *hi)
   return is;
 }
 
-/* Box [lo, hi] of targets l, l + 1, ... as long as it stays compact; returns the first that is not in it. */
+/* Box [lo, hi] of targets l, l + 1, ... while it is compact; returns the first one not in it. */
 BODY int part(int dim, int lanes, double reach, const block *t, int l, double *lo, double *hi)
 {
   for (int d = 0; d < dim; d++) lo[d] = hi[d] = t->x[d][l];
@@ -161,8 +163,8 @@ BODY int part(int dim, int lanes, double reach, const block *t, int l, double *l
   return l;
 }
 
-/* All sources that can be near the block.  Where its targets lie apart (a column ends, far flyers) the search is for
- * one compact part after the other. */
+/* All sources that can be near the block.  Where its targets lie apart (a column ends, far
+ * flyers) the search is for one compact part after the other. */
 BODY int candidates(int dim, int lanes, double reach, const sph_set *source, const block *t,
                     stretch *out)
 {
@@ -176,7 +178,8 @@ BODY int candidates(int dim, int lanes, double reach, const sph_set *source, con
   return n <= STRETCHES ? merge(out, n) : n;
 }
 
-/* The limit leaves room for rounding: the terms are at most about (|u| + |y|)^2, each to a few DBL_EPSILON. */
+/* The limit leaves room for rounding: the terms are at most about (|u| + |y|)^2, each to a few
+ * DBL_EPSILON. */
 BODY probe make_probe(int dim, int lanes, double reach, const block *t)
 {
   probe p = {0};
@@ -219,8 +222,8 @@ BODY unsigned near(int dim, int lanes, const sph_set *source, const probe *p, in
   return bits;
 }
 
-/* Marks where the bits change; at most PIECE sources.  All STEP places are written, only the changes are kept: how
- * many there are is hard to foretell for a processor. */
+/* Marks where the bits change; at most PIECE sources.  All STEP places are written, only the
+ * changes are kept: how many there are is hard to foretell for a processor. */
 BODY void test(int dim, int lanes, const sph_set *source, const probe *p, stretch s,
                const sph_bits *list, marks *restrict m)
 {

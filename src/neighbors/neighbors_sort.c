@@ -70,8 +70,8 @@ static int find_bounds(const sph_neighbors *nb, sph_set *set, const double *cons
   return SPH_OK;
 }
 
-/* Number k of a sample that is spread over all points as if by chance, always the same (multiples of the golden
- * section). */
+/* Number k of a sample that is spread over all points as if by chance, always the same (multiples
+ * of the golden section). */
 static long sample(long k, long n)
 {
   if (n <= SAMPLE) return k;
@@ -79,7 +79,8 @@ static long sample(long k, long n)
   return (long)(fraction * (uint64_t)n >> 32);
 }
 
-/* The interval of direction d that leaves out about one in `share` points at either end, by zooming histograms. */
+/* The interval of direction d that leaves out about one in `share` points at either end, by
+ * zooming histograms. */
 static void core(const sph_neighbors *nb, const sph_set *set, const double *const x[], int d,
                  long share, double *lo, double *hi)
 {
@@ -109,7 +110,7 @@ static double cell_size(const sph_neighbors *nb, int d)
   return fmax((nb->def.dim == 3 ? 2 : 3) * nb->def.dx, nb->def.reach / 8);
 }
 
-/* Lays cells `coarser` times as large over [lo, hi]; returns how many (a double: it may be huge). */
+/* Lays cells `coarser` times as large over [lo, hi]; returns how many (it may be a huge number). */
 static double lay(const sph_neighbors *nb, sph_grid *grid, const double *lo, const double *hi,
                   double coarser)
 {
@@ -128,8 +129,8 @@ static double lay(const sph_neighbors *nb, sph_grid *grid, const double *lo, con
   return total;
 }
 
-/* At most a few cells per point: far flyers are clamped into the cells at the edge, and if that does not help (points
- * thinly spread over a large space) the cells become coarser. */
+/* At most a few cells per point: far flyers are clamped into the cells at the edge, and if that
+ * does not help (points thinly spread over a large space) the cells become coarser. */
 static void choose_grid(const sph_neighbors *nb, sph_set *set, const double *const x[])
 {
   double most = fmin(8 * (double)set->n + 4096, CELLS_MAX), lo[3] = {0}, hi[3] = {0};
@@ -177,10 +178,8 @@ static void counting_sort(const sph_neighbors *nb, sph_set *set, const double *c
   for (long i = 0; i < set->n; i++) set->order[set->start[set->cell[i]]++] = (int)i;
   memmove(set->start + 1, set->start, (size_t)cells * sizeof *set->start); /* ends become starts */
   set->start[0] = 0;
-  for (int d = 0; d < nb->def.dim; d++) {
+  for (int d = 0; d < nb->def.dim; d++)
     for (long s = 0; s < set->n; s++) set->x[d][s] = wrapped(nb, set, x, d, set->order[s]);
-    for (long s = set->n; s < set->n + SPH_LANES_MAX; s++) set->x[d][s] = FAR_AWAY;
-  }
 }
 
 static void end_lists(sph_neighbors *nb, int set)

@@ -1,4 +1,5 @@
-/* Neighbour lists against all pairs, counted here from the definition: |x_i - x_j - k L| < reach for whole numbers k. */
+/* Neighbour lists against all pairs, counted here from the definition: |x_i - x_j - k L| < reach
+ * for whole numbers k. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -43,7 +44,8 @@ static void place_uniform(points *p, int dim)
     for (long i = 0; i < p->n; i++) p->x[d][i] = box * uniform();
 }
 
-/* Points on the faces x = 0 and, in two directions, on edges and corners; distances of exactly 1, 2, ... */
+/* Points on the faces x = 0 and, in two directions, on edges and corners; distances of exactly 1,
+ * 2, ... */
 static void place_lattice(points *p, int dim)
 {
   p->n = SMALL;
@@ -266,7 +268,8 @@ static void open_space(void **state)
         check_scene(&scenes[k], &scenes[(k + 1 + lanes) % SCENES], define(dim, lanes));
 }
 
-/* Every combination of periodic directions, with points on faces, edges and corners and many boxes away. */
+/* Every combination of periodic directions, with points on faces, edges and corners and many
+ * boxes away. */
 static void periodic(void **state)
 {
   (void)state;

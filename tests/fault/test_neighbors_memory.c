@@ -1,0 +1,115 @@
+/* Every allocation of the neighbour search fails once: a clean error, nothing lost, and the next
+ * attempt gives the list that it would have been. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "memory.h"
+#include "sphode/neighbors.h"
+
+enum { POINTS = 500 };
+
+static long taken, failing; /* allocations so far; the one that fails, 0: none */
+
+static int fails(void) { return ++taken == failing; }
+
+void *__real_sph_memory_take(size_t count, size_t size);
+void *__wrap_sph_memory_take(size_t count, size_t size);
+void *__real_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
+void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
+int __real_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
+                           const char *what, sph_error *error);
+int __wrap_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
+                           const char *what, sph_error *error);
+
+void *__wrap_sph_memory_take(size_t count, size_t size)
+{
+  return fails() ? NULL : __real_sph_memory_take(count, size);
+}
+
+void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error)
+{
+  if (!fails()) return __real_sph_memory_new(count, size, what, error);
+  sph_error_set(error, SPH_ERR_MEMORY, "out of memory: %s", what);
+  return NULL;
+}
+
+int __wrap_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
+                           const char *what, sph_error *error)
+{
+  if (!fails()) return __real_sph_memory_grow(pointer, old_count, new_count, size, what, error);
+  return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: %s", what);
+}
+
+static double x[2][POINTS];
+
+/* Sorts, builds and counts all neighbours of point 7; < 0: a status. */
+static long count(sph_neighbors *nb, long n, sph_error *error)
+{
+  const double *const at[] = {x[0], x[1]};
+  int status = sph_neighbors_sort(nb, 0, n, at, error);
+  if (!status) status = sph_neighbors_sort(nb, 1, n / 2, at, error);
+  if (!status) status = sph_neighbors_build(nb, 0, 1, error);
+  if (!status) status = sph_neighbors_build(nb, 0, 0, error);
+  if (status) return status;
+  return sph_neighbors_find(nb, 0, 0, 7, 0, NULL, NULL);
+}
+
+/* The whole life of a search, which grows once; all in one, `failing` counts through it. */
+static long live(const sph_neighbors_def *def)
+{
+  sph_error error = {0};
+  sph_neighbors *nb = sph_neighbors_create(def, &error);
+  if (!nb) {
+    assert_int_equal(error.status, SPH_ERR_MEMORY);
+    assert_non_null(strstr(error.text, "out of memory"));
+    return SPH_ERR_MEMORY;
+  }
+  long small = count(nb, 9, &error), large = small < 0 ? small : count(nb, POINTS, &error);
+  if (large < 0) {
+    assert_int_equal(large, SPH_ERR_MEMORY);
+    if (error.status) assert_non_null(strstr(error.text, "out of memory"));
+    long again = count(nb, POINTS, NULL);
+    failing = 0;
+    assert_int_equal(again, count(nb, POINTS, NULL));
+  }
+  sph_neighbors_free(nb);
+  return large;
+}
+
+static void each_allocation(void **state)
+{
+  (void)state;
+  for (int d = 0; d < 2; d++)
+    for (long i = 0; i < POINTS; i++) x[d][i] = (double)((i * (d ? 7919 : 104729)) % 1009) / 50;
+  for (int threads = 1; threads <= 3; threads += 2) {
+    const sph_neighbors_def def = {.dim = 2,
+                                   .reach = 3,
+                                   .lanes = 4,
+                                   .threads = threads,
+                                   .periodic = {1, 0, 0},
+                                   .length = {21, 0, 0}};
+    taken = failing = 0;
+    long right = live(&def), all = taken;
+    assert_true(right > 5 && all > 15);
+    for (long k = 1; k <= all; k++) {
+      taken = 0;
+      failing = k;
+      assert_int_equal(live(&def), SPH_ERR_MEMORY);
+    }
+    taken = failing = 0;
+    assert_int_equal(live(&def), right);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(each_allocation)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
