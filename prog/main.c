@@ -184,6 +184,7 @@ int main(int argc, char **argv)
   keep_command(&o, argc, argv);
   int status = parse(c, argc - 1, argv + 1, &o);
   if (status < 0) status = c->run(&o);
-  if (fflush(stdout)) return sph_prog_error(PROG_FAILED, "cannot write to standard output");
+  if (fflush(stdout) || ferror(stdout))
+    return sph_prog_error(PROG_FAILED, "cannot write to standard output");
   return status;
 }

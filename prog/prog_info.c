@@ -143,8 +143,8 @@ static int print_kernel_values(const prog_options *o)
         char *end;
         double q = strtod(at, &end);
         printf("%s,%d,%.17g,%.17g,%.17g,%.17g\n", sph_kernel_name(kernel), dim, q,
-               sph_kernel_w(kernel, dim, q, 1), sph_kernel_dwdr(kernel, dim, q, 1),
-               sph_kernel_laplacian(kernel, dim, q, 1));
+               sph_kernel_w(kernel, dim, q, 1), sph_kernel_dwdr(kernel, dim, q, 1) + 0.0,
+               sph_kernel_laplacian(kernel, dim, q, 1) + 0.0); /* no -0 */
         at = end;
       }
   return PROG_OK;

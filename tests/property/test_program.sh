@@ -1,0 +1,156 @@
+#!/usr/bin/env bash
+# The program: what it prints, how it exits, what it leaves behind.
+sphode=${SPHODE:-$BUILDDIR/sphode}
+stage=$(mktemp -d) || exit 99
+trap 'rm -rf "$stage"' EXIT
+cd "$stage" || exit 99
+export OMP_WAIT_POLICY=passive
+dam=$SRCDIR/cases/dam-break-2d.yml
+# Seconds at most: 50 columns of 10 particles, a tenth of the time.
+small=(--set "parameters.dx=H/10" --set "run.end=T" --set "output.snapshots=T/2" --set "output.series=T/20")
+# Hours, to be stopped.
+long=(--set "parameters.dx=H/40" --set "run.end=1000*T" --set "output.snapshots=1000*T" --set "output.series=T/100")
+
+count=0
+ok() { # 0 or not, name
+  count=$((count + 1))
+  if [[ $1 == 0 ]]; then echo "ok $count - $2"; else echo "not ok $count - $2"; fi
+}
+# run STATUS COMMAND...: standard output to out, errors to err; true where it exits with STATUS.
+run() {
+  local wanted=$1 status
+  shift
+  "$@" >out 2>err
+  status=$?
+  [[ $status == "$wanted" ]] && return
+  echo "# exit status $status, wanted $wanted: $*"
+  sed 's/^/# /' out err
+  return 1
+}
+usage() { # name, what the message says, arguments...
+  local name=$1 says=$2
+  shift 2
+  run 2 "$sphode" "$@" && [[ ! -s out ]] && grep -q "^sphode: .*$says" err && grep -q "^Try 'sphode" err
+  ok $? "$name"
+}
+fails() { # name, what the message says, arguments...
+  local name=$1 says=$2
+  shift 2
+  run 1 "$sphode" "$@" && grep -q "^sphode: .*$says" err
+  ok $? "$name"
+}
+
+# ---- help and bad usage
+
+run 0 "$sphode" --version && grep -qx "sphode [0-9.]*" out
+ok $? "--version"
+run 0 "$sphode" --help && [[ ! -s err ]] && for c in run check info plot; do grep -q "^  $c " out || break; done
+ok $? "--help names the commands"
+good=0
+for c in run check info plot; do run 0 "$sphode" $c --help && grep -q "^Usage: sphode $c " out || good=1; done
+ok $good "each command has a help"
+usage "no command" "no command"
+usage "an unknown command" "'rnu' is no command" rnu
+usage "an unknown option" "unrecognized option '--frobnicate'" run --frobnicate "$dam"
+usage "an option of another command" "check takes no --force" check --force "$dam"
+usage "an option without its value" "requires an argument" run "$dam" --output
+usage "no argument" "run wants one CASE.yml, found 0" run
+usage "two arguments" "found 2" run "$dam" "$dam"
+usage "threads that are no number" "--threads 1e3: wanted a whole number" run --threads 1e3 "$dam"
+usage "no threads" "--threads 0" run --threads 0 "$dam"
+run 2 "$sphode" info pets && grep -q "known are kernels, eos, terms" err
+ok $? "an unknown list names the known ones"
+run 2 "$sphode" info kernels --csv --q 0,x && grep -q "found 'x'" err && [[ ! -s out ]]
+ok $? "a bad q is refused before anything is printed"
+
+# ---- info
+
+# All kernels that the table (computed elsewhere to 22 digits) holds, at its q.
+table=$SRCDIR/tests/data/kernel_table.csv
+q=$(awk -F, '!/^#/ && !/^kernel/ && !seen[$3]++ { printf "%s%s", n++ ? "," : "", $3 }' "$table")
+run 0 "$sphode" info kernels --csv --q "$q" && head -1 out | grep -qx "kernel,dim,q,W,dWdr,laplacian" &&
+  awk -F, '
+    function far(a, b) { d = a - b; s = b < 0 ? -b : b; return (d < 0 ? -d : d) > 1e-12 * (1 + s) }
+    /^#/ || /^kernel/ { next }
+    { gsub("_", "-", $1) }
+    FNR == NR { w[$1 "," $2 "," $3 + 0] = $4; f[$1 "," $2 "," $3 + 0] = $5; next }
+    { key = $1 "," $2 "," $3 + 0 }
+    key in w { found++; if (far($4, w[key]) || far($5, f[key])) { print "# " $0 " against " w[key] " " f[key]; bad++ } }
+    END { print "# " found " values"; exit !(found > 20 && !bad) }' "$table" out
+ok $? "kernels as in the table of the literature"
+good=0
+for list in kernels eos terms integrators boundaries; do
+  run 0 "$sphode" info $list && [[ -s out ]] || good=1
+  run 0 "$sphode" info $list --json && { ! command -v python3 >/dev/null || python3 -m json.tool <out >/dev/null; } || good=1
+done
+ok $good "each list, for people and as JSON"
+run 0 "$sphode" info case && grep -q "spacing" out
+ok $? "the manual of case files"
+"$sphode" info case >/dev/full 2>err
+[[ $? == 1 ]] && grep -q "^sphode: cannot write" err
+ok $? "a full standard output is an error"
+
+# ---- check
+
+good=0
+mkdir empty
+for c in "$SRCDIR"/cases/*.yml; do (cd empty && "$sphode" check "$c") >out 2>err || { good=1; sed 's/^/# /' err; }; done
+ok $good "the cases that come along are right"
+[[ -z $(ls empty) ]]
+ok $? "check writes nothing"
+fails "a file that is not there" "nothing.yml: .*No such file" check nothing.yml
+sed 's/^spacing:/spacng:/' "$dam" >broken.yml
+fails "a broken case tells its line" "broken.yml:[0-9]*:1: unknown key 'spacng'.*spacing" check broken.yml
+fails "a wrong unit in --set" "spacing" check --set "spacing=1 s" "$dam"
+fails "an unknown key in --set" "spacng" check --set "spacng=1 m" "$dam"
+
+# ---- run
+
+run 0 "$sphode" run "$dam" "${small[@]}" -o d1 && grep -q "Martin & Moyce" out && grep -q "^results *d1$" out &&
+  [[ -s d1/case.yml && -s d1/summary.json && -s d1/series.csv && -s d1/snapshot_0000.hdf && -s d1/snapshot_0002.hdf ]]
+ok $? "a small run leaves case, summary, series and snapshots"
+run 0 "$sphode" check d1/case.yml
+ok $? "the case that was kept can be read again"
+if command -v gnuplot >/dev/null; then
+  [[ -s d1/frames.png && -s d1/compare_0.png ]] && run 0 "$sphode" plot d1 --field pressure --frames 2 && grep -q "d1/frames.png" out
+  ok $? "its pictures"
+else
+  ok 0 "its pictures # SKIP no gnuplot"
+fi
+before=$(cksum d1/* | cksum)
+fails "a run that ended is not written over" "d1 holds a run that ended" run "$dam" "${small[@]}" -o d1
+[[ $before == "$(cksum d1/* | cksum)" ]]
+ok $? "and nothing of it changed"
+touch d1/notes.txt d1/snapshot_0099.hdf
+run 0 "$sphode" run "$dam" "${small[@]}" -o d1 --force -q && [[ ! -s out && ! -s err && -e d1/notes.txt && ! -e d1/snapshot_0099.hdf ]]
+ok $? "--force writes over it, leaves what is not a run's, and --quiet says nothing"
+rm d1/summary.json
+run 0 "$sphode" run "$dam" "${small[@]}" -o d1 -q
+ok $? "a run that was killed is written over"
+run 0 "$sphode" run "$dam" "${small[@]}" -o d2 --threads 2 -q && cmp d1/series.csv d2/series.csv
+ok $? "two threads give the same bits"
+run 3 "$sphode" run "$dam" "${small[@]}" -o d3 --strict --set compare.0.bar=1e-9
+ok $? "--strict: a missed bar is exit status 3"
+fails "an output directory that cannot be made" "cannot make the directory" run "$dam" "${small[@]}" -o broken.yml/out
+
+# ---- stopped
+
+stopped() { # signal, status
+  "$sphode" run "$dam" "${long[@]}" -o "$1" -q 2>err &
+  local job=$! tries=0
+  until [[ $(wc -l 2>/dev/null <"$1/series.csv") -gt 3 || $((tries++)) -gt 600 ]]; do sleep 0.1; done 2>/dev/null
+  if [[ $1 == INT ]]; then
+    fails "a directory in use is refused" "another run is writing to INT" run "$dam" "${small[@]}" -o INT --force
+    : >err
+  fi
+  kill -s "$1" $job
+  wait $job
+  local status=$?
+  [[ $status == "$2" ]] && grep -q '"error": "stopped on request' "$1/summary.json" && ! ls "$1"/*.tmp 2>/dev/null
+  local good=$?
+  [[ $good == 0 ]] || echo "# exit status $status, wanted $2"
+  ok $good "SIG$1 ends a run with its files whole"
+}
+stopped INT 130
+stopped TERM 143
+echo 1..$count
