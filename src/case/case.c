@@ -106,7 +106,7 @@ sph_case *sph_case_read_text(const char *path, const char *text, size_t size, in
   if (c->root) c->text = whole_text(text, size, n, set, error);
   if (n > SPH_CASE_SETS)
     sph_error_set(error, SPH_ERR_PARSE, "%d times --set; at most %d", n, SPH_CASE_SETS);
-  for (int k = 0; k < n && !error->status; k++) {
+  for (int k = 0; k < n && c->root && !error->status; k++) {
     c->set[k] = sph_memory_string(set[k], error); /* messages point to it later, too */
     if (c->set[k]) apply(c, c->set[k]);
   }

@@ -1,5 +1,6 @@
 /* From a checked case to a simulation, by the public interface only. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "case_schema.h"
@@ -102,7 +103,8 @@ static int add_shape(const builder *b, sph_group *group, const sph_case_node *sh
     sph_group_add_box(group, lower, upper, density);
   } else {
     const sph_case_node *list = child_of(shape, "open"), *side = list ? list->first : NULL;
-    for (; side && strlen(open) < 24; side = side->next) strcat(strcat(open, side->text), " ");
+    for (size_t n = 0; side; side = side->next, n = strlen(open))
+      snprintf(open + n, sizeof open - n, "%s ", side->text);
     sph_group_add_layers(group, lower, upper, open, density);
   }
   return told(b, shape);

@@ -246,13 +246,13 @@ static int compare_profile(const comparer *a, sph_case_distance *d)
   const sph_group *fluid = NULL, *group;
   profile p = {0};
   long n = 0;
-  int status = SPH_OK;
   for (int k = 0; (group = sph_sim_group_get(a->sim, k)); k++) {
     if (strcmp(sph_group_kind(group), "fluid")) continue;
     if (!fluid) fluid = group;
     n += sph_group_count(group);
   }
-  status = fluid ? profile_new(&p, n, a->error) : fail(a, a->node, "there is no fluid");
+  if (!fluid) return fail(a, a->node, "there is no fluid");
+  int status = profile_new(&p, n, a->error);
   for (int k = 0; !status && (group = sph_sim_group_get(a->sim, k)); k++)
     if (!strcmp(sph_group_kind(group), "fluid")) status = gather(a, group, axis, d->window, &p);
   if (!status) status = riemann ? exact_riemann(a, &p) : exact_column(a, fluid, &p);

@@ -90,13 +90,20 @@ static void add(char *text, size_t size, const char *name, double power)
     snprintf(text + n, size - n, "%s%s^%.3g", n ? " " : "", name, power);
 }
 
+static int same(const double *a, const double *b)
+{
+  int equal = 1;
+  for (int k = 0; k < SPH_CASE_BASES; k++) equal = equal && a[k] == b[k];
+  return equal;
+}
+
 void sph_case_unit_write(const double power[SPH_CASE_BASES], char *text, size_t size)
 {
   static const char *const base[] = {"kg", "m", "s"};
   text[0] = 0;
   for (size_t k = 0; k < sizeof known / sizeof *known; k++) { /* Pa, N, J, W before kg/m/s^2 */
     const sph_case_unit *unit = &known[k].unit;
-    if (unit->factor == 1 && !memcmp(unit->power, power, sizeof unit->power) && power[0] == 1) {
+    if (unit->factor == 1 && same(unit->power, power) && power[0] == 1) {
       snprintf(text, size, "%s", known[k].name);
       return;
     }

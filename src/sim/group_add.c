@@ -52,7 +52,7 @@ static int box_lattice(sph_group *group, const double *lo, const double *hi, lat
   double count = 1, dx = group->sim->dx;
   for (int d = 0; d < group->dim; d++) {
     double side = lo && hi ? hi[d] - lo[d] : NAN;
-    if (!(isfinite(side) && side >= dx / 2)) {
+    if (!lo || !(isfinite(side) && side >= dx / 2)) {
       sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
                    "group %s: box side %d from %g to %g m; right is at least dx/2 = %g m long",
                    group->name, d, lo ? lo[d] : NAN, hi ? hi[d] : NAN, dx / 2);
@@ -187,8 +187,10 @@ void sph_group_add_layers(sph_group *group, const double *lo, const double *hi, 
 void sph_group_add_points(sph_group *group, long n, const double *const x[], double rho0)
 {
   if (!ready(group, "points") || !positive(group, "rho0", rho0)) return;
-  if (n < 0 || (double)n > MOST || (n > 0 && !x))
+  if (n < 0 || (double)n > MOST || (n > 0 && !x)) {
     sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s: %ld points", group->name, n);
+    return;
+  }
   for (long i = 0; i < n && sph_sim_data_ok(group->sim); i++) {
     double point[3] = {0};
     for (int d = 0; d < group->dim; d++) point[d] = x[d] ? x[d][i] : NAN;

@@ -40,8 +40,8 @@ static void finish(const sph_sim *sim, sph_sorted *sorted, long s)
   for (int a = 0; a < dim; a++)
     for (int b = a; b < dim; b++) M[a][b] = M[b][a] = sim->F_scale * sorted->sum[k++][s];
   for (int a = 0; a < dim; a++) gradient[a] = sim->F_scale * sorted->sum[k++][s];
-  if (!cholesky(dim, M, LEAST_EIGENVALUE, L)) return; /* the slots hold zeros */
-  cholesky(dim, M, 0, L);
+  if (!cholesky(dim, M, LEAST_EIGENVALUE, L) || !cholesky(dim, M, 0, L))
+    return; /* the slots hold zeros */
   solve(dim, L, gradient);
   for (int a = 0; a < dim; a++)
     sorted->record[s * sorted->stride + slot_extra(dim) + a] = gradient[a];
