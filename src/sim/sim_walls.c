@@ -42,6 +42,7 @@ static void fill(const sph_sim *sim, const sph_group *wall, const sph_view *view
   double W = sum[SPH_WALL_W][s], p = 0, u = 0;
   if (W > 0) {
     p = sum[SPH_WALL_P][s];
+    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): dim <= 3
     for (int d = 0; d < sim->dim; d++) p += g_minus_a[d] * sum[SPH_WALL_RHO_R + d][s];
     p /= W;
     u = wall->eos.thermal ? sum[SPH_WALL_U][s] / W : 0;
