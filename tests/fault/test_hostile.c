@@ -1,5 +1,5 @@
-/* Bad values at every door of the public interface: the status says what kind, the text names the object and the
- * value, later calls change nothing, nothing crashes. */
+/* Bad values at every door of the public interface: the status says what kind, the text names the
+ * object and the value, later calls change nothing, nothing crashes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

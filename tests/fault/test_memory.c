@@ -1,5 +1,6 @@
-/* Every allocation of a small simulation fails once, from sph_sim_create to the end of the run: SPH_ERR_MEMORY every
- * time, no crash, no leak (under ASan or valgrind), and what was attached is let go of exactly once. */
+/* Every allocation of a small simulation fails once, from sph_sim_create to the end of the run:
+ * SPH_ERR_MEMORY every time, no crash, no leak (under ASan or valgrind), and what was attached is
+ * let go of exactly once. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
