@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -38,18 +39,30 @@ static long fluids(const sph_sim *sim)
   return n;
 }
 
+/* Of the terminal: a line that wraps could not be written over. */
+static int columns(void)
+{
+  struct winsize size;
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80;
+}
+
 static void tell(prog_progress *p, sph_sim *sim)
 {
   sph_sim_stats s;
   sph_sim_get_stats(sim, &s);
   double t = sph_sim_time(sim), used = sph_prog_progress_now() - p->start, left = 0;
   if (t > 0) left = used * (p->end - t) / t;
-  fprintf(stderr,
-          "%st = %.4g of %.4g s (%3.0f %%)  step %ld of %.3g s, bound by %s  %ld particles  "
-          "%.3g million pairs/s  %.0f:%02.0f left%s",
-          p->live ? "\r\033[K" : "", t, p->end, 100 * t / p->end, s.step.steps, s.step.dt_last,
-          bound(p, &s.step), fluids(sim), used > 0 ? 1e-6 * s.pairs / used : 0, floor(left / 60),
-          floor(fmod(left, 60)), p->live ? "" : "\n");
+  char line[200];
+  snprintf(line, sizeof line,
+           "t %.4g/%.4g s %3.0f %%  step %ld, dt %.3g s (%s)  %ld particles  %.3g Mpairs/s  "
+           "%.0f:%02.0f left",
+           t, p->end, 100 * t / p->end, s.step.steps, s.step.dt_last, bound(p, &s.step),
+           fluids(sim), used > 0 ? 1e-6 * s.pairs / used : 0, floor(left / 60),
+           floor(fmod(left, 60)));
+  if (p->live)
+    fprintf(stderr, "\r\033[K%.*s", columns() - 1, line);
+  else
+    fprintf(stderr, "%s\n", line);
   fflush(stderr);
 }
 
