@@ -4,6 +4,7 @@
  * Reference  inertial oscillation: a free patch moving at v0 turns clockwise through circles of
  *            radius v0/(2 Omega), period pi/Omega
  * Run        ./05_own_term
+ * See        the printed error of the mean velocity and position
  * Check      after a quarter of a period the patch moves at right angles, with the same speed; its
  *            centre has moved by (R, -R), R = v0/(2 Omega) */
 #include <sphode.h>
