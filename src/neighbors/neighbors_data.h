@@ -5,18 +5,21 @@
  * order. */
 #ifndef SPH_NEIGHBORS_DATA_H
 #define SPH_NEIGHBORS_DATA_H
+#include <math.h>
+
 #include "cpu.h"
 #include "sphode/neighbors.h"
 
 enum { SPH_LANES_MAX = 8, SPH_IMAGES_MAX = 27 };
 
 typedef struct sph_grid {
-  long cells[3];       /* per direction; 1 for d >= dim */
-  double origin[3];    /* lower corner [m] */
-  double size[3];      /* of a cell [m] */
-  double inverse[3];   /* 1/size [1/m] */
-  double rounding[3];  /* points may lie this far outside of their cell [m] */
-  double lo[3], hi[3]; /* where the points really are: some may lie outside of the cells */
+  long cells[3];          /* per direction; 1 for d >= dim */
+  double origin[3];       /* lower corner [m] */
+  double size[3];         /* of a cell [m] */
+  double inverse[3];      /* 1/size [1/m] */
+  double rounding[3];     /* points may lie this far outside of their cell [m] */
+  double cut[3], skip[3]; /* cut .. cut + skip, between two heaps of points, takes no cells [m] */
+  double lo[3], hi[3];    /* where the points really are: some may lie outside of the cells */
 } sph_grid;
 
 typedef struct sph_set {
@@ -69,6 +72,7 @@ typedef struct sph_neighbors_table {
 /* Cell of coordinate x of direction d, clamped into the grid: monotone, so that no pair is lost. */
 static inline long sph_grid_cell(const sph_grid *grid, int d, double x)
 {
+  if (x > grid->cut[d]) x = fmax(x - grid->skip[d], grid->cut[d]);
   double k = (x - grid->origin[d]) * grid->inverse[d];
   if (!(k > 0)) return 0;
   return k < (double)grid->cells[d] ? (long)k : grid->cells[d] - 1;

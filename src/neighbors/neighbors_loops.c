@@ -82,6 +82,8 @@ BODY int across(const sph_grid *grid, int d, double lo, double hi, double reach,
   if (last - first >= COLUMNS) return 0;
   for (long k = first; k <= last; k++) {
     double left = grid->origin[d] + (double)k * grid->size[d], right = left + grid->size[d];
+    if (left > grid->cut[d] + grid->rounding[d]) left += grid->skip[d];
+    if (right > grid->cut[d] - grid->rounding[d]) right += grid->skip[d];
     double below = k > 0 ? left - hi : 0, above = k < grid->cells[d] - 1 ? lo - right : 0;
     double gap = (below > above ? below : above) - grid->rounding[d];
     gap2[k - first] = gap > 0 ? gap * gap : 0;

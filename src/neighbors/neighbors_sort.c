@@ -103,6 +103,32 @@ static void core(const sph_neighbors *nb, const sph_set *set, const double *cons
   }
 }
 
+/* The widest stretch of direction d that is empty between points in [lo, hi] takes no cells. */
+static void fold(const sph_neighbors *nb, sph_set *set, const double *const x[], int d, double lo,
+                 double hi)
+{
+  enum { BINS = 512 };
+  double least[BINS], most[BINS], scale = BINS / (hi - lo), last = lo;
+  for (int b = 0; b < BINS; b++) least[b] = INFINITY, most[b] = -INFINITY;
+  for (long k = 0; scale < INFINITY && k < set->n && k < SAMPLE; k++) {
+    double a = wrapped(nb, set, x, d, sample(k, set->n)), at = (a - lo) * scale;
+    if (!(at >= 0 && at <= BINS)) continue;
+    int b = at < BINS ? (int)at : BINS - 1;
+    least[b] = fmin(least[b], a);
+    most[b] = fmax(most[b], a);
+  }
+  set->grid.skip[d] = 0;
+  for (int b = 0; b < BINS; b++) {
+    if (most[b] < least[b]) continue;
+    double skip = least[b] - last - 2 * nb->def.reach;
+    if (skip > set->grid.skip[d]) {
+      set->grid.skip[d] = skip;
+      set->grid.cut[d] = last + nb->def.reach;
+    }
+    last = most[b];
+  }
+}
+
 /* Cell sizes: columns of 2 dx in 3D, 3 dx in 2D, fine cells of dx/4; not too many within reach. */
 static double cell_size(const sph_neighbors *nb, int d)
 {
@@ -110,7 +136,8 @@ static double cell_size(const sph_neighbors *nb, int d)
   return fmax((nb->def.dim == 3 ? 2 : 3) * nb->def.dx, nb->def.reach / 8);
 }
 
-/* Lays cells `coarser` times as large over [lo, hi]; returns how many (it may be a huge number). */
+/* Lays cells over [lo, hi], fine ones `coarser` times as large, columns no narrower than those;
+ * returns how many (it may be a huge number). */
 static double lay(const sph_neighbors *nb, sph_grid *grid, const double *lo, const double *hi,
                   double coarser)
 {
@@ -118,7 +145,8 @@ static double lay(const sph_neighbors *nb, sph_grid *grid, const double *lo, con
   for (int d = 0; d < 3; d++) {
     grid->cells[d] = 1;
     if (d >= nb->def.dim) continue;
-    double size = cell_size(nb, d) * coarser, count = floor((hi[d] - lo[d]) / size) + 1;
+    double size = fmax(cell_size(nb, d), coarser * cell_size(nb, nb->def.dim - 1));
+    double count = floor((hi[d] - lo[d] - grid->skip[d]) / size) + 1;
     total *= count;
     grid->origin[d] = lo[d];
     grid->size[d] = size;
@@ -129,17 +157,24 @@ static double lay(const sph_neighbors *nb, sph_grid *grid, const double *lo, con
   return total;
 }
 
-/* At most a few cells per point: far flyers are clamped into the cells at the edge, and if that
- * does not help (points thinly spread over a large space) the cells become coarser. */
+/* At most a few cells per point: far flyers are clamped into the cells at the edge, the space
+ * between two heaps is left out, and if that does not help (points thinly spread over a large
+ * space) the cells become coarser. */
 static void choose_grid(const sph_neighbors *nb, sph_set *set, const double *const x[])
 {
   double most = fmin(8 * (double)set->n + 4096, CELLS_MAX), lo[3] = {0}, hi[3] = {0};
   memcpy(lo, set->grid.lo, sizeof lo);
   memcpy(hi, set->grid.hi, sizeof hi);
+  for (int d = 0; d < 3; d++) {
+    set->grid.cut[d] = INFINITY;
+    set->grid.skip[d] = 0;
+  }
   double total = lay(nb, &set->grid, lo, hi, 1);
   for (long share = 256; total > most && share >= 4; share /= 4) {
-    for (int d = 0; d < nb->def.dim; d++)
+    for (int d = 0; d < nb->def.dim; d++) {
       if (!nb->def.periodic[d]) core(nb, set, x, d, share, &lo[d], &hi[d]);
+      fold(nb, set, x, d, lo[d], hi[d]);
+    }
     total = lay(nb, &set->grid, lo, hi, 1);
   }
   for (double coarser = 2; total > most; coarser *= 2) total = lay(nb, &set->grid, lo, hi, coarser);

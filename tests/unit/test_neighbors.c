@@ -368,6 +368,24 @@ static void flyers_cost_nothing(void **state)
   }
 }
 
+/* Two heaps of points far apart: the columns are as narrow as for one, and stand only there. */
+static void space_between_costs_nothing(void **state)
+{
+  (void)state;
+  for (double apart = 1e2; apart < 1e7; apart *= 1e2) {
+    place_many(&first_set, 0);
+    place_none(&second_set, 3);
+    for (int d = 0; d < 3; d++)
+      for (long i = 0; i < first_set.n; i += 2) first_set.x[d][i] += 27 * apart;
+    sph_neighbors *nb = create(define(3, 8));
+    sort_and_build(nb);
+    const sph_grid *grid = &nb->set[0].grid;
+    assert_true(grid->size[0] == 2 && grid->size[2] <= 0.5);
+    assert_true((double)grid->cells[0] * grid->size[0] < 2 * 27 + 2 * reach + 4);
+    sph_neighbors_free(nb);
+  }
+}
+
 /* Rebuilding takes no memory. */
 static void steady_state(void **state)
 {
@@ -499,12 +517,19 @@ static void not_finite(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(open_space),    cmocka_unit_test(periodic),
-      cmocka_unit_test(brute_force),   cmocka_unit_test(cells_of_any_size),
-      cmocka_unit_test(threads),       cmocka_unit_test(flyers_cost_nothing),
-      cmocka_unit_test(steady_state),  cmocka_unit_test(order),
-      cmocka_unit_test(long_runs),     cmocka_unit_test(find),
-      cmocka_unit_test(bad_arguments), cmocka_unit_test(not_finite),
+      cmocka_unit_test(open_space),
+      cmocka_unit_test(periodic),
+      cmocka_unit_test(brute_force),
+      cmocka_unit_test(cells_of_any_size),
+      cmocka_unit_test(threads),
+      cmocka_unit_test(flyers_cost_nothing),
+      cmocka_unit_test(space_between_costs_nothing),
+      cmocka_unit_test(steady_state),
+      cmocka_unit_test(order),
+      cmocka_unit_test(long_runs),
+      cmocka_unit_test(find),
+      cmocka_unit_test(bad_arguments),
+      cmocka_unit_test(not_finite),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
