@@ -36,7 +36,7 @@ static void solve(int dim, double L[3][3], double x[3])
 static void finish(const sph_sim *sim, sph_sorted *sorted, long s)
 {
   int dim = sim->dim, k = 0;
-  double M[3][3], L[3][3], gradient[3];
+  double M[3][3], L[3][3] = {{0}}, gradient[3] = {0};
   for (int a = 0; a < dim; a++)
     for (int b = a; b < dim; b++) M[a][b] = M[b][a] = sim->F_scale * sorted->sum[k++][s];
   for (int a = 0; a < dim; a++) gradient[a] = sim->F_scale * sorted->sum[k++][s];
