@@ -249,3 +249,5 @@ int sph_sim_evaluate(sph_sim *sim)
   sim->derived = !status;
   return status;
 }
+
+N_Vector sph_sim_vector(sph_sim *sim) { return sph_sim_prepare(sim) == SPH_OK ? sim->y : NULL; }

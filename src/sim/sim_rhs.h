@@ -3,6 +3,7 @@
 #ifndef SPH_SIM_RHS_H
 #define SPH_SIM_RHS_H
 #include "sim_data.h"
+#include "sphode/sundials.h"
 
 /* One evaluation: the views of all groups and what its phases hand on. */
 typedef struct sph_evaluation {
@@ -11,8 +12,6 @@ typedef struct sph_evaluation {
   sph_view view[SPH_SETS_MAX];
 } sph_evaluation;
 
-/* f(t, y): an ARKRhsFn with the simulation as user data. */
-int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *sim);
 /* Pressure, sound speed and walls of the state (t, y), with the lists as they are. */
 int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y);
 

@@ -4,9 +4,14 @@ cd "$SRCDIR" || exit 99
 headers=(include/sphode.h include/sphode/*.h)
 count=0
 
+# The one header that includes others than ours: with their flags, and not answerable for their warnings.
+sundials=$("$MAKE" -s --no-print-directory -C "$BUILDDIR" print-cppflags)
+
 compiles() { # name, compiler and flags, header
+  local flags="-Wall -Wextra -Werror"
+  [[ $3 == */sundials.h ]] && flags="-w $sundials"
   count=$((count + 1))
-  if $2 -Wall -Wextra -Werror -fsyntax-only -Iinclude -include "$3" /dev/null 2>&1 | sed 's/^/# /' &&
+  if $2 $flags -fsyntax-only -Iinclude -include "$3" /dev/null 2>&1 | sed 's/^/# /' &&
     ((PIPESTATUS[0] == 0)); then
     echo "ok $count - $3 as $1"
   else

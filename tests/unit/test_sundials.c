@@ -1,0 +1,84 @@
+/* sphode/sundials.h: a simulation as a system of ODEs for somebody else's solver. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "sphode.h"
+#include "sphode/sundials.h"
+
+static sph_sim *square(double *vx)
+{
+  sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 0.1});
+  sph_group *group = sph_group_box(sim, "square", (double[]){0, 0}, (double[]){1, 1}, 1000);
+  sph_group_set_eos(group, sph_eos_tait(1000, 10, 7));
+  double *v = sph_group_write(group, "velocity", 0);
+  for (long i = 0; v && i < sph_group_count(group); i++) v[i] = *vx * (double)(i % 7);
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, sph_term_pressure());
+  return sim;
+}
+
+/* The rates through the door are those of sph_sim_evaluate, bit by bit; dx/dt is v. */
+static void rates(void **state)
+{
+  (void)state;
+  double vx = 0.3;
+  sph_sim *sim = square(&vx);
+  N_Vector y = sph_sim_vector(sim), ydot = N_VClone(y);
+  assert_non_null(ydot);
+  assert_int_equal(sph_sim_evaluate(sim), SPH_OK);
+  assert_int_equal(sph_sim_rhs(0, y, ydot, sim), SPH_OK);
+  const sph_group *group = sph_sim_group(sim, "square");
+  const double *start = sph_group_rate(group, "position", 0), *data = N_VGetArrayPointer(ydot);
+  long n = sph_group_count(group);
+  assert_memory_equal(data, start, (size_t)n * sizeof *data);
+  assert_memory_equal(start, sph_group_read(group, "velocity", 0), (size_t)n * sizeof *data);
+  double a = 0;
+  for (long i = 0; i < n; i++) a += fabs(sph_group_rate(group, "velocity", 0)[i]);
+  assert_true(fabs(N_VMaxNorm(ydot)) > 0 && a >= 0);
+  N_VDestroy(ydot);
+  sph_sim_free(sim);
+}
+
+/* Not admissible: > 0 and no error that sticks; a failed simulation has no vector. */
+static void refusals(void **state)
+{
+  (void)state;
+  double vx = 0;
+  sph_sim *sim = square(&vx);
+  N_Vector y = sph_sim_vector(sim), bad = N_VClone(y), ydot = N_VClone(y);
+  N_VConst(-1, bad);
+  assert_true(sph_sim_rhs(0, bad, ydot, sim) > 0);
+  assert_int_equal(sph_sim_status(sim), SPH_OK);
+  N_VDestroy(bad);
+  N_VDestroy(ydot);
+  sph_sim_free(sim);
+  assert_null(sph_sim_vector(NULL));
+  sim = sph_sim_create(&(sph_sim_def){.dim = 4});
+  assert_null(sph_sim_vector(sim));
+  sph_sim_free(sim);
+}
+
+/* All weights are positive and those of a field are equal. */
+static void weights(void **state)
+{
+  (void)state;
+  double vx = 1;
+  sph_sim *sim = square(&vx);
+  N_Vector y = sph_sim_vector(sim), w = N_VClone(y);
+  assert_int_equal(sph_sim_weights(y, w, sim), 0);
+  assert_true(N_VMin(w) > 0);
+  assert_true(N_VGetArrayPointer(w)[0] == 1 / sph_sim_h(sim));
+  N_VDestroy(w);
+  sph_sim_free(sim);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(rates), cmocka_unit_test(refusals),
+                                     cmocka_unit_test(weights)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
