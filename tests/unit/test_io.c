@@ -9,6 +9,7 @@
 #include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
+#define H5_USE_110_API /* HDF5 1.12 and later: object addresses under their old name */
 #include <hdf5.h>
 #include <math.h>
 #include <pthread.h>
