@@ -251,6 +251,34 @@ static void entropy(void **state)
   }
 }
 
+/* ... and over a run, in which particles leave the periodic box at all sides. */
+static void momentum_of_a_run(void **state)
+{
+  (void)state;
+  static const char *const method[] = {"erk:bogacki-shampine-4-2-3", "leapfrog", "verlet"};
+  for (int k = 0; k < 6; k++) {
+    scene_def def = scene_number(k, 0, 1);
+    scene s;
+    scene_make(&s, &def);
+    set_terms(&s,
+              &(terms){.row = ORACLE_C2, .alpha = 0.1, .diffusion = ORACLE_ANTUONO, .delta = 0.1});
+    for (long i = 0; i < s.o.n; i++)
+      for (int d = 0; d < def.dim; d++) s.o.particle[i].v[d] += 4; /* all of them flow */
+    sph_sim *sim = scene_sim(&s, (scene_options){0});
+    sph_sim_set_integrator(sim, &(sph_integrator_def){.method = method[k / 2]});
+    sph_balance start, end;
+    sph_sim_balance(sim, &start);
+    if (sph_sim_run(sim, 0.1) != SPH_OK) fail_msg("%s", sph_sim_error(sim));
+    sph_sim_balance(sim, &end);
+    assert_true(start.mass > 0 && end.mass == start.mass);
+    for (int d = 0; d < def.dim; d++)
+      assert_true(fabs(end.momentum[d] - start.momentum[d]) <= 1e-13 * fabs(start.momentum[d]));
+    assert_true(end.kinetic < start.kinetic); /* something happened */
+    sph_sim_free(sim);
+    scene_free(&s);
+  }
+}
+
 /* ---- density ---- */
 
 /* C1 is the time derivative of the summation density along the motion: against differences of sum m
@@ -462,6 +490,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(momentum),
+      cmocka_unit_test(momentum_of_a_run),
       cmocka_unit_test(angular_momentum),
       cmocka_unit_test(energy_of_gases),
       cmocka_unit_test(energy_of_liquids),
