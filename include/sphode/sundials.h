@@ -1,7 +1,8 @@
 /* sphode/sundials.h -- for people who drive ARKODE, CVODE or another SUNDIALS solver themselves.
  *
- * The only public header with SUNDIALS types; compile with pkg-config --cflags --libs sphode-sundials.  A
- * simulation is then a system of ODEs: the vector of its state and its right-hand side. */
+ * The only public header with SUNDIALS types; compile with pkg-config --cflags --libs
+ * sphode-sundials.  A simulation is then a system of ODEs: the vector of its state and its
+ * right-hand side. */
 #ifndef SPHODE_SUNDIALS_H
 #define SPHODE_SUNDIALS_H
 #include <sundials/sundials_nvector.h>
@@ -13,12 +14,12 @@ extern "C" {
 #endif
 
 /* The state: makes the simulation ready for its first evaluation (then no groups or terms are added
- * any more).  Owned by the simulation, as is the SUNContext in it; clone it for vectors of your own,
- * free those before the simulation.  NULL after a failure. */
+ * any more).  Owned by the simulation, as is the SUNContext in it; clone it for vectors of your
+ * own, free those before the simulation.  NULL after a failure. */
 SPH_API N_Vector sph_sim_vector(sph_sim *sim);
 
-/* f(t, y), an ARKRhsFn and CVRhsFn with the simulation as user data: 0, > 0 where y is not admissible
- * (try a smaller step), < 0 after a failure (sph_sim_error tells it). */
+/* f(t, y), an ARKRhsFn and CVRhsFn with the simulation as user data: 0, > 0 where y is not
+ * admissible (try a smaller step), < 0 after a failure (sph_sim_error tells it). */
 SPH_API int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *sim);
 
 /* Error weights 1/(tolerance scale) of every entry at tolerance 1: an ARKEwtFn and CVEwtFn. */
