@@ -37,7 +37,9 @@ static sph_sim *make(const setup *s, double skin)
   }
   sph_sim *sim = sph_sim_create(&def);
   sph_group *fluid = sph_group_box(sim, "fluid", lo, hi, 1000);
-  sph_group_set_eos(fluid, s->thermal ? sph_eos_ideal_gas(1.4) : sph_eos_tait(1000, c0, 7));
+  sph_eos eos = s->thermal ? sph_eos_ideal_gas(1.4) : sph_eos_tait(1000, c0, 7);
+  eos.c0 = c0; /* the density diffusion of the thermal one needs it, too */
+  sph_group_set_eos(fluid, eos);
   unsigned state = 1;
   for (int d = 0; d < s->dim; d++) {
     double *x = sph_group_write(fluid, "position", d), *v = sph_group_write(fluid, "velocity", d);

@@ -2,6 +2,7 @@
 #ifndef SPHODE_H
 #define SPHODE_H
 #include <math.h>
+#include <stdio.h>
 
 #include "sphode/base.h"
 #include "sphode/boundary.h"

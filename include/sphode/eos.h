@@ -19,7 +19,8 @@ struct sph_eos {
   double p_background; /* pressure at rho0 [Pa] */
   double p_min;        /* cut-off: p = max(p, p_min) [Pa]; -INFINITY: none */
   int thermal;         /* 1: p depends on the internal energy u, which is then integrated */
-  /* p[n] [Pa] and c[n] [m/s] of rho[n] [kg/m^3] and u[n] [J/kg] (u is NULL unless thermal). */
+  /* Called from several threads at once, on different particles: read ctx, do not write to it.
+   * p[n] [Pa] and c[n] [m/s] of rho[n] [kg/m^3] and u[n] [J/kg] (u is NULL unless thermal). */
   void (*pressure)(const sph_eos *eos, long n, const double *rho, const double *u, double *p,
                    double *c);
   /* rho [kg/m^3] at pressure p [Pa] for internal energy u [J/kg] (not read unless thermal). */

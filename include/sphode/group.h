@@ -48,7 +48,8 @@ SPH_API const sph_eos *sph_group_eos(const sph_group *group); /* NULL: none yet 
 SPH_API int sph_group_thermal(const sph_group *group); /* its internal energy is integrated */
 
 /* One component of a field, [count]: read it, or write it before the run or between steps (then
- * call sph_sim_changed).  Valid until the next step; NULL: no such field or component.  Derived
+ * call sph_sim_changed).  Valid until the next step or, before the
+ * run, the first evaluation; NULL: no such field or component.  Derived
  * fields (pressure, sound_speed) are those of the state shown. */
 SPH_API const double *sph_group_read(const sph_group *group, const char *field, int component);
 SPH_API double *sph_group_write(sph_group *group, const char *field, int component);

@@ -40,7 +40,8 @@ static void add(sph_group *group, const double *x, double rho0)
     if (group->wall) group->start[d][i] = x[d];
   }
   group->own[SPH_DENSITY][0][i] = rho0;
-  group->own[SPH_MASS][0][i] = rho0 * pow(sim->dx, sim->dim);
+  group->own[SPH_MASS][0][i] = rho0 * sim->volume;
+  group->rho0 = rho0;
   group->id[i] = id;
   group->n++;
 }

@@ -42,6 +42,7 @@ static void set_lengths(sph_sim *sim, const sph_sim_def *def)
   double h_over_dx = def->h_over_dx == 0 ? sph_kernel_h_over_dx(sim->kernel) : def->h_over_dx;
   if (positive(&sim->error, "h_over_dx", h_over_dx)) return;
   sim->dx = def->dx;
+  sim->volume = pow(def->dx, sim->dim);
   sim->h = h_over_dx * def->dx;
   sim->H = sph_kernel_support(sim->kernel) * sim->h;
   if (!isfinite(def->skin)) {
@@ -235,7 +236,7 @@ int sph_sim_step(sph_sim *sim)
 void sph_sim_changed(sph_sim *sim)
 {
   if (!sph_sim_data_ok(sim) || !sim->prepared) return;
-  sim->derived = 0;
+  sim->derived = sim->listed = 0; /* fields may have moved any distance */
   sph_integrator_reset(sim->integrator, sim->time);
 }
 

@@ -23,7 +23,8 @@ typedef struct sph_sorted {
 
 typedef struct sph_outlet {
   sph_output output;
-  long frames; /* written: the next one is due at start + frames * interval */
+  long frames;  /* due so far: the next one is due at start + frames * interval */
+  double start; /* when it was opened [s] */
   int open;
 } sph_outlet;
 
@@ -36,6 +37,7 @@ struct sph_sim {
   const sph_kernel *kernel;
   char neighbors_method[SPH_METHOD_MAX];
   double dx, h, H, skin, speed, origin[3], length[3]; /* H: support radius; skin [m] */
+  double volume;                                      /* of a particle: dx^dim [m^dim] */
 
   /* Attached. */
   int groups, outlets, has_integrator;

@@ -131,10 +131,17 @@ void sph_sim_pairs_loop(sph_sim *sim, sph_pair_function *loop, int target, int s
     loop(&task, c * BLOCKS, c + 1 < chunks ? (c + 1) * BLOCKS : list.blocks);
 }
 
+int sph_sim_pairs_same_fluid(const sph_group *target, const sph_group *source)
+{
+  return source->wall || (source->eos.rho0 == target->eos.rho0 && source->eos.c0 == target->eos.c0);
+}
+
 /* Terms of the interaction fluid <- source. */
-static unsigned interaction_terms(const sph_sim *sim, const sph_group *source)
+static unsigned interaction_terms(const sph_sim *sim, const sph_group *target,
+                                  const sph_group *source)
 {
   unsigned terms = sim->loop_terms;
+  if (!sph_sim_pairs_same_fluid(target, source)) terms &= ~(unsigned)(SPH_MOLTENI | SPH_ANTUONO);
   if (!source->wall) return terms;
   terms &= ~(unsigned)SPH_CONDUCTIVITY; /* walls are adiabatic */
   if (!source->boundary.no_slip) terms &= ~(unsigned)SPH_ARTIFICIAL;
@@ -165,7 +172,7 @@ static void add_group(sph_evaluation *e, int g)
   sph_sim_pairs_clear(sim, g, SPH_FLUID_SUMS);
   for (int s = 0; s < sim->groups; s++) {
     fluid_constants constants = sim->constants;
-    constants.terms = interaction_terms(sim, sim->group[s]);
+    constants.terms = interaction_terms(sim, sim->group[g], sim->group[s]);
     sph_sim_pairs_loop(sim, sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, constants.terms),
                        g, s, &constants);
   }

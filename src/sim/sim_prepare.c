@@ -70,6 +70,29 @@ static int check_values(sph_sim *sim)
   return SPH_OK;
 }
 
+/* Would a term do nothing?  It is more likely to be meant otherwise. */
+static int check_terms(sph_sim *sim)
+{
+  const unsigned diffusion = SPH_MOLTENI | SPH_ANTUONO;
+  for (int g = 0; g < sim->groups; g++) {
+    const sph_group *group = sim->group[g];
+    if (group->wall) continue;
+    if ((sim->terms.bits & SPH_CONDUCTIVITY) && !group->eos.thermal)
+      return sph_sim_fail(
+          sim, SPH_ERR_ARGUMENT,
+          "conductivity-artificial acts on internal energy, which %s with equation of state "
+          "%s has not: leave the term out",
+          group->name, group->eos.name);
+    if ((sim->terms.bits & diffusion) && sim->terms.delta > 0 && !(group->eos.c0 > 0))
+      return sph_sim_fail(
+          sim, SPH_ERR_ARGUMENT,
+          "delta needs a reference sound speed, which equation of state %s of %s has not "
+          "(c0 = %g): leave the term out or set eos.c0",
+          group->eos.name, group->name, group->eos.c0);
+  }
+  return SPH_OK;
+}
+
 /* Positions may have been written since walls were added: their motion starts there. */
 static void start_walls(sph_sim *sim)
 {
@@ -202,6 +225,7 @@ int sph_sim_prepare(sph_sim *sim)
   int status = sph_term_set_check(&sim->terms, &sim->error);
   if (!status) status = check_groups(sim);
   if (!status) status = check_values(sim);
+  if (!status) status = check_terms(sim);
   if (!status) start_walls(sim);
   if (!status) make_constants(sim);
   if (!status) status = make_vectors(sim);

@@ -26,6 +26,9 @@ int sph_sim_pairs_add(sph_evaluation *e);              /* pairs */
 int sph_sim_admit(sph_evaluation *e);                  /* admit */
 
 void sph_sim_pairs_pack_positions(const sph_evaluation *e, int g);
+/* Does density diffuse between them?  Not between fluids of different reference density or sound
+ * speed; with walls always. */
+int sph_sim_pairs_same_fluid(const sph_group *target, const sph_group *source);
 void sph_sim_pairs_clear(sph_sim *sim, int g, int sums);
 
 /* Runs one loop over all target blocks of (target <- source). */

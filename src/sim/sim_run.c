@@ -25,12 +25,21 @@ int sph_sim_run_derived(sph_sim *sim)
   return status;
 }
 
-/* Time of an outlet's next frame. */
-static double due(const sph_sim *sim, const sph_outlet *outlet)
+static const double MOST_FRAMES = 1e6; /* in one step */
+
+/* Time of an outlet's next frame; interval 0: written after every step instead. */
+static double due(const sph_outlet *outlet)
 {
-  if (outlet->output.interval == 0) return outlet->frames ? INFINITY : sim->start;
-  if (outlet->frames == 0) return sim->start;
-  return sim->start + (double)outlet->frames * outlet->output.interval;
+  double interval = outlet->output.interval;
+  return interval > 0 ? outlet->start + (double)outlet->frames * interval : INFINITY;
+}
+
+/* Frames due in time that was stepped through without a run (sph_sim_step) are not written. */
+static void skip_past(const sph_sim *sim, sph_outlet *outlet)
+{
+  double interval = outlet->output.interval;
+  if (!(interval > 0 && interval < INFINITY) || due(outlet) > sim->time) return;
+  outlet->frames = (long)fmin(1e15, floor((sim->time - outlet->start) / interval) + 1);
 }
 
 static int frame(sph_sim *sim, sph_outlet *outlet)
@@ -48,8 +57,13 @@ static int frames(sph_sim *sim)
   int status = SPH_OK;
   for (int k = 0; !status && k < sim->outlets; k++) {
     sph_outlet *outlet = &sim->outlet[k];
+    double last = sph_integrator_previous(sim->integrator);
+    if (now - last > MOST_FRAMES * outlet->output.interval && outlet->output.interval > 0)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "output %s: an interval of %g s in steps of %g s",
+                          outlet->output.name ? outlet->output.name : "", outlet->output.interval,
+                          now - last);
     double slack = 1e-9 * outlet->output.interval; /* a frame at the end is not lost to rounding */
-    for (double t = due(sim, outlet); !status && t <= now + slack; t = due(sim, outlet)) {
+    for (double t = due(outlet); !status && t <= now + slack; t = due(outlet)) {
       if (t < now) {
         status = sph_integrator_interpolate(sim->integrator, t, sim->frame);
         show(sim, t, sim->frame);
@@ -67,7 +81,12 @@ static int open_outputs(sph_sim *sim)
   int status = SPH_OK;
   for (int k = 0; !status && k < sim->outlets; k++) {
     sph_outlet *outlet = &sim->outlet[k];
-    if (outlet->open) continue;
+    if (outlet->open) {
+      skip_past(sim, outlet);
+      continue;
+    }
+    outlet->start = sim->time;
+    outlet->frames = 0;
     if (outlet->output.open) status = outlet->output.open(outlet->output.ctx, sim, &sim->error);
     outlet->open = !status;
     if (!status) status = frame(sim, outlet);

@@ -2,7 +2,7 @@
  * Adams 2012).
  *
  *   p_w = [sum p_f W + (g - a_w) . sum rho_f r_wf W]/sum W,
- *   rho_w from p_w by the inverse equation of state,
+ *   rho_w from p_w by the inverse equation of state,  m_w = rho_w dx^d,
  *   v_w = 2 v_prescribed - sum v_f W/sum W in viscous terms (no slip).   No fluid near: p_w = 0. */
 #include <math.h>
 
@@ -48,11 +48,12 @@ static void fill(const sph_sim *sim, const sph_group *wall, const sph_view *view
     u = wall->eos.thermal ? sum[SPH_WALL_U][s] / W : 0;
   }
   if (p < 0 && !wall->boundary.tension) p = 0;
-  int inverse = !wall->eos.thermal || (p > 0 && u > 0);
-  double rho = inverse ? wall->eos.density(&wall->eos, p, u) : view->m[i] / pow(sim->dx, sim->dim);
+  int known = !wall->eos.thermal || (p > 0 && u > 0);
+  double rho = known ? wall->eos.density(&wall->eos, p, u) : wall->rho0;
   double unused;
   if (wall->boundary.no_slip) wall->eos.pressure(&wall->eos, 1, &rho, &u, &unused, &view->c[i]);
   view->rho[i] = rho;
+  view->m[i] = rho * sim->volume; /* it always fills its place on the lattice */
   view->p[i] = p;
 }
 

@@ -31,6 +31,7 @@ struct sph_group {
   char eos_name[SPH_NAME_MAX];
   sph_boundary boundary; /* walls; its name points to a built-in one */
   int has_eos, has_boundary;
+  double rho0; /* walls: density where no fluid tells it [kg/m^3] */
 };
 
 /* All pointers of one evaluation: made at its start from the vectors at hand, never stored. */

@@ -68,6 +68,14 @@ static int near(const oracle *o, long i, long j, pair *ij)
 }
 
 static int is_wall(const oracle *o, long i) { return o->group[o->particle[i].group].wall; }
+
+/* Density diffuses within a fluid and at walls, not between fluids of different rho0 or c0. */
+static int same_fluid(const oracle *o, long i, long j)
+{
+  const oracle_eos *a = &o->group[o->particle[i].group].eos;
+  const oracle_eos *b = &o->group[o->particle[j].group].eos;
+  return is_wall(o, j) || (a->rho0 == b->rho0 && a->c0 == b->c0);
+}
 static const oracle_eos *eos_of(const oracle *o, long i)
 {
   return &o->group[o->particle[i].group].eos;
@@ -121,7 +129,7 @@ static void materials(oracle *o)
 
 /* ---- walls (Adami, Hu & Adams 2012):
  *   p_w = [sum p_f W + (g - a_w) . sum rho_f r_wf W] / sum W,   rho_w = rho(p_w),
- *   v_w = 2 v - <v_f> for viscous terms that see it;
+ *   m_w = rho_w V_w, V_w that of its place; v_w = 2 v - <v_f> for viscous terms that see it;
  *   in a gas u_w = <u_f>, and rho_w = rho0 where p_w or u_w is not positive ---- */
 
 static void wall(oracle *o, long w)
@@ -150,6 +158,8 @@ static void wall(oracle *o, long w)
   it->condition = group->eos.kind == ORACLE_IDEAL_GAS && it->p > 0 ? 1 + it->p_size / it->p : 1;
   if (group->eos.kind != ORACLE_IDEAL_GAS || (it->p > 0 && it->u > 0))
     it->rho = density_of(&group->eos, it->p, it->u);
+  if (it->volume == 0) it->volume = it->m / group->rho0; /* its place on the lattice */
+  it->m = it->rho * it->volume;
   real p = it->p, p_size = it->p_size;
   pressure_of(&group->eos, it); /* for c */
   it->p = p, it->p_size = p_size;
@@ -192,7 +202,7 @@ static void gradient(oracle *o, long i)
   pair ij;
   for (long j = 0; j < o->n; j++) {
     const oracle_particle *other = &o->particle[j];
-    if (j == i || !near(o, i, j, &ij)) continue;
+    if (j == i || !near(o, i, j, &ij) || !same_fluid(o, i, j)) continue;
     real volume = other->m / other->rho;
     for (int r = 0; r < 3; r++) {
       b[r] += volume * (other->rho - it->rho) * ij.grad_w[r];
@@ -301,7 +311,8 @@ static void rates(oracle *o, long i)
     compression(o, it, other, &ij);
     if (!wall_j || o->group[other->group].no_slip) viscosity(o, it, other, &ij);
     if (o->conductivity > 0 && !wall_j) conductivity(o, it, other, &ij);
-    if (o->diffusion != ORACLE_OFF) diffusion(o, eos_of(o, i), wall_j, it, other, &ij);
+    if (o->diffusion != ORACLE_OFF && same_fluid(o, i, j))
+      diffusion(o, eos_of(o, i), wall_j, it, other, &ij);
   }
 }
 

@@ -33,6 +33,7 @@ typedef struct oracle_particle {
   real m, rho, u;  /* [kg], [kg/m^3], [J/kg]; a wall's rho is a result */
   /* Results: */
   real p, c;         /* [Pa], [m/s] */
+  real volume;       /* of a wall's place; 0 until it is known [m^dim] */
   real v_viscous[3]; /* what viscous terms see [m/s] */
   real gradient[3];  /* <grad rho>^L [kg/m^4] */
   real a[3], drho, du;

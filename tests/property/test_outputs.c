@@ -1,0 +1,147 @@
+/* When frames are written, fields read and walls felt: what a program may do between runs. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "sphode.h"
+
+typedef struct record {
+  int frames;
+  double time[100];
+} record;
+
+static int note(void *ctx, struct sph_sim *sim, sph_error *error)
+{
+  record *r = ctx;
+  (void)error;
+  if (r->frames < 100) r->time[r->frames] = sph_sim_time(sim);
+  r->frames++;
+  return SPH_OK;
+}
+
+/* Water over a floor, at rest. */
+static sph_sim *pool(void)
+{
+  sph_sim *sim =
+      sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 0.1, .periodic = {1, 0}, .length = {1.2, 0}});
+  sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1.2, 0.6}, 1000);
+  sph_group *floor = sph_group_create(sim, "floor", "wall");
+  sph_group_add_box(floor, (double[]){0, -0.3}, (double[]){1.2, 0}, 1000);
+  sph_group_set_eos(water, sph_eos_tait(1000, 30, 7));
+  sph_group_set_boundary(floor, sph_boundary_adami());
+  sph_group_set_hydrostatic(water, 1, 0.6, 10);
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, sph_term_pressure());
+  sph_sim_add_term(sim, sph_term_delta("antuono", 0.1));
+  sph_sim_add_term(sim, sph_term_gravity((double[]){0, -10, 0}));
+  return sim;
+}
+
+/* Frames stand at the exact times from the moment an output is first used; steps between runs write
+ * none, and none is written twice. */
+static void frames_between_runs(void **state)
+{
+  (void)state;
+  record early = {0}, late = {0};
+  sph_sim *sim = pool();
+  sph_sim_add_output(sim, (sph_output){.interval = 0.02, .frame = note, .ctx = &early});
+  assert_int_equal(sph_sim_run(sim, 0.05), SPH_OK);
+  assert_int_equal(early.frames, 3); /* 0, 0.02, 0.04 */
+  sph_sim_add_output(sim, (sph_output){.interval = 0.02, .frame = note, .ctx = &late});
+  while (sph_sim_time(sim) < 0.085) assert_int_equal(sph_sim_step(sim), SPH_OK);
+  double begin = sph_sim_time(sim);
+  assert_int_equal(sph_sim_run(sim, 0.2), SPH_OK);
+  assert_true(late.time[0] == begin);
+  for (int k = 1; k < late.frames; k++) assert_true(fabs(late.time[k] - begin - 0.02 * k) < 1e-12);
+  assert_true(early.time[3] > begin && early.time[3] < begin + 0.02);
+  for (int k = 3; k < early.frames; k++)
+    assert_true(fabs(early.time[k] / 0.02 - round(early.time[k] / 0.02)) < 1e-9);
+  sph_sim_free(sim);
+}
+
+/* Fields moved far by hand: what is read afterwards belongs to where they are. */
+static void moved_by_hand(void **state)
+{
+  (void)state;
+  sph_sim *sim = pool();
+  assert_int_equal(sph_sim_evaluate(sim), SPH_OK);
+  double *y = sph_group_write(sph_sim_group(sim, "water"), "position", 1);
+  for (long i = 0; i < sph_group_count(sph_sim_group(sim, "water")); i++) y[i] += 5;
+  sph_sim_changed(sim);
+  const sph_group *floor = sph_sim_group(sim, "floor");
+  const double *p = sph_group_read(floor, "pressure", 0);
+  for (long i = 0; i < sph_group_count(floor); i++) assert_true(p[i] == 0);
+  sph_sim_free(sim);
+}
+
+/* A gas at rest between walls feels no force, whatever density the walls were given first. */
+static void gas_between_walls(void **state)
+{
+  (void)state;
+  static const double density[] = {0.125, 1, 4};
+  for (int k = 0; k < 3; k++) {
+    sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 1, .dx = 0.01});
+    sph_group *gas = sph_group_box(sim, "gas", (double[]){0}, (double[]){1}, density[k]);
+    sph_group *walls = sph_group_walls(sim, "walls", (double[]){0}, (double[]){1}, 1);
+    sph_group_set_eos(gas, sph_eos_ideal_gas(1.4));
+    sph_group_set_boundary(walls, sph_boundary_adami());
+    double *u = sph_group_write(gas, "energy", 0);
+    for (long i = 0; u && i < sph_group_count(gas); i++) u[i] = 2.5 / density[k];
+    sph_sim_add_term(sim, sph_term_continuity());
+    sph_sim_add_term(sim, sph_term_pressure());
+    assert_int_equal(sph_sim_evaluate(sim), SPH_OK);
+    const double *a = sph_group_rate(gas, "velocity", 0);
+    for (long i = 0; i < sph_group_count(gas); i++)
+      assert_true(fabs(a[i]) < 1e-10 / (density[k] * 0.01)); /* p/(rho dx) is the scale */
+    sph_sim_free(sim);
+  }
+}
+
+/* Gas at speed v runs into a wall: the shock that comes back leaves rest behind it, at the density of
+ * Rankine & Hugoniot, v = 2c/(gamma + 1) (M - 1/M); and the wall lets nothing through. */
+static void gas_hits_a_wall(void **state)
+{
+  (void)state;
+  sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 1, .dx = 0.005, .h_over_dx = 2});
+  sph_group *gas = sph_group_box(sim, "gas", (double[]){0}, (double[]){1}, 1);
+  sph_group *walls = sph_group_create(sim, "wall", "wall");
+  sph_group_add_layers(walls, (double[]){0}, (double[]){1}, "x+", 1);
+  sph_group_set_eos(gas, sph_eos_ideal_gas(1.4));
+  sph_group_set_boundary(walls, sph_boundary_adami());
+  double *u = sph_group_write(gas, "energy", 0), *v = sph_group_write(gas, "velocity", 0);
+  for (long i = 0; u && i < sph_group_count(gas); i++) u[i] = 1, v[i] = -0.3;
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, sph_term_pressure());
+  sph_sim_add_term(sim, sph_term_viscosity_artificial(1, 2));
+  assert_int_equal(sph_sim_run(sim, 0.2), SPH_OK);
+  const double *x = sph_group_read(gas, "position", 0), *rho = sph_group_read(gas, "density", 0);
+  for (long i = 0; i < sph_group_count(gas); i++) assert_true(x[i] > 0);
+  double half = 0.3 * 2.4 / (4 * sqrt(1.4 * 0.4)), M = half + sqrt(half * half + 1), mean = 0;
+  for (long i = 8; i < 18; i++) mean += rho[i] / 10; /* off the wall, behind the shock */
+  assert_true(fabs(mean / (2.4 * M * M / (0.4 * M * M + 2)) - 1) < 0.02);
+  sph_sim_free(sim);
+}
+
+/* A term that would do nothing is refused. */
+static void silent_terms(void **state)
+{
+  (void)state;
+  sph_sim *sim = pool();
+  sph_sim_add_term(sim, sph_term_conductivity_artificial(1));
+  assert_int_equal(sph_sim_evaluate(sim), SPH_ERR_ARGUMENT);
+  assert_non_null(strstr(sph_sim_error(sim), "conductivity-artificial"));
+  sph_sim_free(sim);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(frames_between_runs),
+                                     cmocka_unit_test(moved_by_hand),
+                                     cmocka_unit_test(gas_between_walls),
+                                     cmocka_unit_test(gas_hits_a_wall),
+                                     cmocka_unit_test(silent_terms)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
