@@ -5,7 +5,7 @@ headers=(include/sphode.h include/sphode/*.h)
 count=0
 
 # The one header that includes others than ours: with their flags, and not answerable for their warnings.
-sundials=$("$MAKE" -s --no-print-directory -C "$BUILDDIR" print-cppflags)
+sundials=$(env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL "$MAKE" -s --no-print-directory -C "$BUILDDIR" print-cppflags)
 
 compiles() { # name, compiler and flags, header
   local flags="-Wall -Wextra -Werror"
