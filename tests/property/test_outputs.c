@@ -100,8 +100,8 @@ static void gas_between_walls(void **state)
   }
 }
 
-/* Gas at speed v runs into a wall: the shock that comes back leaves rest behind it, at the density of
- * Rankine & Hugoniot, v = 2c/(gamma + 1) (M - 1/M); and the wall lets nothing through. */
+/* Gas at speed v runs into a wall: the shock that comes back leaves rest behind it, at the density
+ * of Rankine & Hugoniot, v = 2c/(gamma + 1) (M - 1/M); and the wall lets nothing through. */
 static void gas_hits_a_wall(void **state)
 {
   (void)state;
