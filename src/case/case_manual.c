@@ -75,6 +75,10 @@ static void add_choices(sph_text *text, const sph_case_key *key)
 {
   char word[80];
   if (key->type != SPH_CASE_WORD_T && key->type != SPH_CASE_WORDS_T) return;
+  if (!strcmp(key->more, "@integrators")) { /* they depend on the SUNDIALS that is installed */
+    sph_text_add(text, "`leapfrog`, `verlet`, `erk:` and a table: `sphode info integrators`");
+    return;
+  }
   for (int k = 0; sph_case_schema_choice(key, k, word); k++)
     sph_text_add(text, "%s`%s`", k ? ", " : "", word);
 }
@@ -114,7 +118,7 @@ int sph_case_manual(char *buffer, size_t size)
   sph_text_add(&text, "%s", head);
   for (int k = 0; (mapping = sph_case_schema_mapping(k)); k++) add_mapping(&text, mapping);
   int length = text.error.status ? text.error.status : (int)text.length;
-  if (length >= 0 && size) snprintf(buffer, size, "%s", text.data);
+  if (length >= 0 && buffer && size) snprintf(buffer, size, "%s", text.data);
   sph_text_free(&text);
   return length;
 }
