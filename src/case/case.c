@@ -92,12 +92,30 @@ static char *whole_text(const char *text, size_t size, int n, const char *const 
   return copy;
 }
 
+static int check_given(const char *path, const char *text, int n, const char *const *set,
+                       sph_error *error)
+{
+  if (!path) return sph_error_set(error, SPH_ERR_ARGUMENT, "a case: no path (NULL)");
+  if (!text) return sph_error_set(error, SPH_ERR_ARGUMENT, "%s: no text (NULL)", path);
+  if (n < 0)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "%s: %d settings; right is >= 0", path, n);
+  if (n > 0 && !set)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "%s: %d settings at NULL", path, n);
+  for (int k = 0; k < n; k++)
+    if (!set[k])
+      return sph_error_set(error, SPH_ERR_ARGUMENT, "%s: setting %d is NULL; key=value is right",
+                           path, k);
+  return error->status;
+}
+
 sph_case *sph_case_read_text(const char *path, const char *text, size_t size, int n,
                              const char *const *set, sph_error *error)
 {
+  static const char mark[] = "\xef\xbb\xbf"; /* some editors begin UTF-8 with it */
   sph_error own = {0};
   if (!error) error = &own;
-  if (error->status) return NULL;
+  if (check_given(path, text, n, set, error)) return NULL;
+  if (size >= 3 && !memcmp(text, mark, 3)) text += 3, size -= 3;
   sph_case *c = SPH_NEW(sph_case, 1, "a case", error);
   if (!c) return NULL;
   c->error = error;
@@ -140,16 +158,31 @@ void sph_case_free(sph_case *c)
 
 static const sph_case_node *find(const sph_case *c, const char *mapping, const char *key)
 {
-  return sph_case_reader_find(sph_case_reader_find(c->root, mapping), key);
+  return c ? sph_case_reader_find(sph_case_reader_find(c->root, mapping), key) : NULL;
 }
 
 const char *sph_case_title(const sph_case *c)
 {
-  const sph_case_node *title = sph_case_reader_find(c->root, "title");
+  const sph_case_node *title = c ? sph_case_reader_find(c->root, "title") : NULL;
   return title ? title->text : "";
 }
 
-const char *sph_case_text(const sph_case *c) { return c->text; }
-double sph_case_end(const sph_case *c) { return find(c, "run", "end")->number; }
-const char *sph_case_plot_field(const sph_case *c) { return find(c, "plot", "field")->text; }
-int sph_case_plot_frames(const sph_case *c) { return (int)find(c, "plot", "frames")->number; }
+const char *sph_case_text(const sph_case *c) { return c ? c->text : ""; }
+
+double sph_case_end(const sph_case *c)
+{
+  const sph_case_node *end = find(c, "run", "end");
+  return end ? end->number : 0;
+}
+
+const char *sph_case_plot_field(const sph_case *c)
+{
+  const sph_case_node *field = find(c, "plot", "field");
+  return field ? field->text : "";
+}
+
+int sph_case_plot_frames(const sph_case *c)
+{
+  const sph_case_node *frames = find(c, "plot", "frames");
+  return frames ? (int)frames->number : 0;
+}

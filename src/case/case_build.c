@@ -269,6 +269,7 @@ sph_sim *sph_case_build(const sph_case *c, int threads, sph_error *error)
 {
   sph_error own = {0};
   builder b = {.c = c, .error = error ? error : &own};
+  if (!c) sph_error_set(b.error, SPH_ERR_ARGUMENT, "a simulation of no case (NULL)");
   if (b.error->status) return NULL;
   sph_sim_def def = sim_def(c, threads);
   b.sim = sph_sim_create(&def);
@@ -306,6 +307,10 @@ static void add_series(const sph_case *c, sph_sim *sim, const char *directory, d
 void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directory,
                             const char *command)
 {
+  if (!c) {
+    sph_sim_fail(sim, SPH_ERR_ARGUMENT, "outputs of no case (NULL)");
+    return;
+  }
   const sph_case_node *output = child_of(c->root, "output");
   double end = sph_case_end(c);
   sph_hdf5_def def = {.directory = directory,

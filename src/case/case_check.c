@@ -326,6 +326,32 @@ static int check_map(sph_case *c, const char *mapping, sph_case_node *node)
   return is_one(mapping) ? check_one(c, mapping, node) : complete(c, mapping, node);
 }
 
+/* ---- what no key alone can tell */
+
+static int check_fluid(sph_case *c)
+{
+  const sph_case_node *groups = sph_case_reader_find(c->root, "groups"), *group = groups->first;
+  while (group && strcmp(sph_case_reader_text(group, "kind", ""), "fluid")) group = group->next;
+  if (group) return SPH_OK;
+  return FAIL_KEY(groups, "groups: no fluid among them; at least one has kind: fluid");
+}
+
+/* Continuity and pressure must be partners, or energy is not conserved. */
+static int check_forms(sph_case *c)
+{
+  const sph_case_node *terms = sph_case_reader_find(c->root, "terms");
+  const sph_case_node *continuity = sph_case_reader_find(terms, "continuity");
+  const sph_case_node *pressure = sph_case_reader_find(terms, "pressure");
+  const sph_case_node *one = sph_case_reader_find(continuity, "form");
+  const sph_case_node *other = sph_case_reader_find(pressure, "form");
+  if (!one || !other || !strcmp(one->text, "c2") == !strcmp(other->text, "c2")) return SPH_OK;
+  int given = !other->origin || strcmp(other->origin, "default"); /* else continuity's was */
+  return FAIL(given ? other : one, 0,
+              "form: found pressure %s with continuity %s, which do not conserve energy; right are "
+              "c2 with c2, or s with c1",
+              other->text, one->text);
+}
+
 int sph_case_check(sph_case *c)
 {
   sph_case_node *dimension = sph_case_reader_find(c->root, "dimension");
@@ -335,5 +361,7 @@ int sph_case_check(sph_case *c)
   c->dim = dimension ? (int)dimension->number : 3;
   if (parameters && check_value(c, find_key("case", "parameters"), parameters))
     return c->error->status;
-  return check_map(c, "case", c->root);
+  int status = check_map(c, "case", c->root);
+  if (!status) status = check_fluid(c);
+  return status ? status : check_forms(c);
 }

@@ -339,8 +339,13 @@ int sph_case_compare(const sph_case *c, sph_sim *sim, const char *directory, sph
   sph_error own = {0};
   comparer a = {.c = c, .sim = sim, .directory = directory, .error = error ? error : &own};
   int count = 0, status = SPH_OK;
-  *list = NULL;
-  *n = 0;
+  if (list) *list = NULL;
+  if (n) *n = 0;
+  if (!c || !list || !n)
+    return sph_error_set(a.error, SPH_ERR_ARGUMENT, "a comparison of a run: no %s (NULL)",
+                         !c      ? "case"
+                         : !list ? "place for the list"
+                                 : "place for its length");
   while (comparison(c, count)) count++;
   sph_comparison *all = SPH_NEW(sph_comparison, count, "comparisons", a.error);
   if (!all) return SPH_ERR_MEMORY;
@@ -370,6 +375,9 @@ int sph_case_compare_plot(const sph_case *c, int k, const char *directory, char 
   char run[SPH_PATH], table_path[SPH_PATH];
   sph_error own = {0};
   comparer a = {.c = c, .directory = directory, .error = error ? error : &own};
+  if (!c || !png)
+    return sph_error_set(a.error, SPH_ERR_ARGUMENT, "a picture of comparison %d: no %s (NULL)", k,
+                         c ? "place for its path" : "case");
   a.node = comparison(c, k);
   a.kind = a.node ? child_of(a.node, "reference")->first : NULL;
   if (!a.kind || strcmp(a.kind->key, "csv"))

@@ -9,7 +9,7 @@
 
 /* Events, not libyaml's documents: those take minutes for 200 000 brackets, and expand aliases. */
 typedef struct reader {
-  const char *path;
+  const char *path, *text;
   yaml_parser_t yaml;
   yaml_event_t event; /* the present one */
   sph_error *error;
@@ -64,6 +64,21 @@ sph_case_node *sph_case_reader_find(const sph_case_node *parent, const char *key
   return child;
 }
 
+/* libyaml tells the byte that is no text, not its place: characters are counted here. */
+static yaml_mark_t mark_of(const reader *r, size_t byte)
+{
+  yaml_mark_t mark = {0};
+  for (size_t k = 0; k < byte; k++) {
+    if (r->text[k] == '\n' || (r->text[k] == '\r' && k + 1 < byte && r->text[k + 1] != '\n')) {
+      mark.line++;
+      mark.column = 0;
+    } else if (((unsigned char)r->text[k] & 0xc0) != 0x80) { /* not the rest of a character */
+      mark.column++;
+    }
+  }
+  return mark;
+}
+
 static int advance(reader *r)
 {
   yaml_event_delete(&r->event);
@@ -74,9 +89,8 @@ static int advance(reader *r)
   if (r->yaml.error == YAML_MEMORY_ERROR)
     return sph_error_set(r->error, SPH_ERR_MEMORY, "out of memory: reading %s", r->path);
   if (r->yaml.error == YAML_READER_ERROR) {
-    snprintf(what, sizeof what, "byte %zu: %s; a case file is plain text in UTF-8",
-             r->yaml.problem_offset, problem);
-    return sph_error_set(r->error, SPH_ERR_PARSE, "%s: %s", r->path, what);
+    snprintf(what, sizeof what, "%s; a case file is plain text in UTF-8", problem);
+    return fail_at(r, mark_of(r, r->yaml.problem_offset), what);
   }
   snprintf(what, sizeof what, "not YAML: %s%s%s", problem, r->yaml.context ? ", " : "",
            r->yaml.context ? r->yaml.context : "");
@@ -213,7 +227,7 @@ failed:
 sph_case_node *sph_case_reader_parse(const char *path, const char *text, size_t size,
                                      sph_error *error)
 {
-  reader r = {.path = path, .error = error};
+  reader r = {.path = path, .text = text, .error = error};
   if (size > SPH_CASE_BYTES) {
     sph_error_set(error, SPH_ERR_PARSE, "%s: %zu bytes; a case file has at most 1 MiB", path, size);
     return NULL;
@@ -232,9 +246,13 @@ sph_case_node *sph_case_reader_parse(const char *path, const char *text, size_t 
 
 char *sph_case_reader_load(const char *path, size_t *size, sph_error *error)
 {
-  FILE *file = fopen(path, "rb");
+  FILE *file = path ? fopen(path, "rb") : NULL;
   char *text = NULL;
   *size = 0;
+  if (!path) {
+    sph_error_set(error, SPH_ERR_ARGUMENT, "a case: no path (NULL)");
+    return NULL;
+  }
   if (!file) {
     sph_error_set(error, SPH_ERR_FILE, "%s: cannot open: %s", path, strerror(errno));
     return NULL;

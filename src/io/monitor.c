@@ -281,6 +281,9 @@ static int check_place(const sph_monitor *monitor, int dim, sph_error *error)
 
 int sph_monitor_check(const sph_monitor *monitor, const sph_sim *sim, sph_error *error)
 {
+  if (!monitor || !sim)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "a monitor: no %s (NULL)",
+                         monitor ? "simulation" : "monitor");
   int status = check_name(monitor->name, error);
   if (status != SPH_OK) return status;
   if (find(monitor->type) < 0)
@@ -300,5 +303,8 @@ int sph_monitor_value(const sph_monitor *monitor, sph_sim *sim, double *value, s
 {
   int status = sph_monitor_check(monitor, sim, error);
   if (status != SPH_OK) return status;
+  if (!value)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "monitor %s: no place for its value (NULL)",
+                         monitor->name);
   return types[find(monitor->type)].value(monitor, sim, value, error);
 }

@@ -103,7 +103,11 @@ static void free_hdf5(void *ctx)
 
 sph_output sph_output_hdf5_def(const sph_hdf5_def *def)
 {
+  static const sph_hdf5_def nothing;
   context *c = sph_memory_take(1, sizeof *c);
+  if (c && !def)
+    sph_error_set(&c->error, SPH_ERR_ARGUMENT, "an HDF5 output without a definition (NULL)");
+  if (!def) def = &nothing;
   if (c) {
     c->directory = copy(def->directory, &c->error);
     c->case_text = copy(def->case_text, &c->error);

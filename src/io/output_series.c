@@ -71,7 +71,7 @@ static int append(context *c, sph_text *row, sph_error *error)
   ssize_t done = status == SPH_OK ? write(c->fd, row->data, row->length) : 0;
   if (status == SPH_OK && done != (ssize_t)row->length) {
     int why = done < 0 ? errno : ENOSPC;
-    if (ftruncate(c->fd, end) != 0) why = errno;
+    if (ftruncate(c->fd, end) != 0) errno = why; /* a device; told is why it did not fit */
     status = sph_error_set(error, SPH_ERR_FILE, "cannot write to %s: %s", c->path, strerror(why));
   }
   sph_text_free(row);
@@ -136,6 +136,10 @@ static void free_series(void *ctx)
 static void copy_monitors(context *c, const sph_monitor *monitors, int n)
 {
   if (n <= 0) return;
+  if (!monitors) {
+    sph_error_set(&c->error, SPH_ERR_ARGUMENT, "a time series: %d monitors at NULL", n);
+    return;
+  }
   c->monitors = SPH_NEW(sph_monitor, n, "monitors", &c->error);
   for (int k = 0; c->monitors && k < n; k++) {
     sph_monitor *m = &c->monitors[k];

@@ -351,8 +351,9 @@ int sph_plot_frames(const char *directory, const char *field, int n, const char 
 int sph_plot_particles(const char *path, const char *field, const char *png, sph_error *error)
 {
   struct stat info;
-  if (!path || stat(path, &info) != 0)
-    return sph_error_set(error, SPH_ERR_FILE, "%s: no such file or directory", path ? path : "");
+  if (!path) return sph_error_set(error, SPH_ERR_ARGUMENT, "a picture of no path (NULL)");
+  if (stat(path, &info) != 0)
+    return sph_error_set(error, SPH_ERR_FILE, "%s: no such file or directory", path);
   if (S_ISDIR(info.st_mode)) return sph_plot_frames(path, field, 1, png, error);
   return draw_files(path, NULL, NULL, 1, field, png, error);
 }

@@ -84,6 +84,7 @@ int sph_plot_series(const sph_plot_curve *curve, int n, const sph_plot_def *def,
   sph_gnuplot names;
   sph_text script = {0}, data = {0}, curves = {0};
   char x_first[128] = "", y_first[128] = "", x_title[128], y_title[128];
+  if (!curve) return sph_error_set(error, SPH_ERR_ARGUMENT, "%d curves to draw at NULL", n);
   if (n < 1) return sph_error_set(error, SPH_ERR_ARGUMENT, "%d curves to draw: at least 1", n);
   int status = sph_gnuplot_names(&names, png, error);
   for (int k = 0; status == SPH_OK && k < n; k++) {

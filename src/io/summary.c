@@ -265,11 +265,12 @@ static void text_all(sph_text *t, const facts *f)
 int sph_summary_text(char *buffer, size_t size, sph_sim *sim, const sph_balance *start,
                      const sph_comparison *comparison, int n)
 {
+  if (!sim || (n > 0 && !comparison)) return SPH_ERR_ARGUMENT;
   facts f = gather(sim, start, comparison, n);
   sph_text t = {0};
   text_all(&t, &f);
   int length = t.error.status != SPH_OK ? t.error.status : (int)t.length;
-  if (size) snprintf(buffer, size, "%s", t.data ? t.data : "");
+  if (buffer && size) snprintf(buffer, size, "%s", t.data ? t.data : "");
   sph_text_free(&t);
   return length;
 }
@@ -288,6 +289,8 @@ int sph_summary_write(const char *directory, sph_sim *sim, const sph_balance *st
                       const sph_comparison *comparison, int n, sph_error *error)
 {
   if (!sim) return sph_error_set(error, SPH_ERR_ARGUMENT, "a summary needs a simulation");
+  if (n > 0 && !comparison)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "a summary: %d comparisons at NULL", n);
   facts f = gather(sim, start, comparison, n);
   sph_text json = {0}, text = {0};
   json_who(&json, &f);

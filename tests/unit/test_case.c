@@ -180,6 +180,22 @@ static void a_wrong_set_says_so(void **state)
   }
 }
 
+static void a_byte_order_mark_is_skipped(void **state)
+{
+  static const char *const set[] = {"spacing=2 cm"};
+  char marked[sizeof small + 3] = "\xef\xbb\xbf", expected[sizeof small + 30];
+  sph_error error = {0};
+  (void)state;
+  sph_case *c =
+      sph_case_read_text("small.yml", strcat(marked, small), sizeof marked - 1, 1, set, &error);
+  if (!c) fail_msg("%s", error.text);
+  snprintf(expected, sizeof expected, "# --set spacing=2 cm\n%s", small); /* readable again */
+  assert_string_equal(sph_case_text(c), expected);
+  sph_case_free(c);
+  assert_null(sph_case_read_text("bad.yml", "\xef\xbb\xbf\x01", 4, 0, NULL, &error));
+  assert_true(!strncmp(error.text, "bad.yml:1:1: control", 20));
+}
+
 static void the_simulation_is_what_the_file_says(void **state)
 {
   sph_error error = {0};
@@ -302,6 +318,7 @@ int main(void)
       cmocka_unit_test(defaults_are_filled_in),
       cmocka_unit_test(set_replaces_and_adds),
       cmocka_unit_test(a_wrong_set_says_so),
+      cmocka_unit_test(a_byte_order_mark_is_skipped),
       cmocka_unit_test(the_simulation_is_what_the_file_says),
       cmocka_unit_test(broken_files_say_what_is_wrong),
       cmocka_unit_test(bombs_and_garbage_are_refused_at_once),

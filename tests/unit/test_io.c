@@ -315,6 +315,20 @@ static void full_disk_leaves_whole_rows(void **state)
   sph_sim_free(sim);
 }
 
+/* A device, which cannot be cut back to whole rows. */
+static void full_device_tells_why(void **state)
+{
+  (void)state;
+  if (access("/dev/full", W_OK) != 0) skip();
+  sph_error error = {0};
+  sph_sim *sim = tank(0, 0);
+  assert_int_equal(symlink("/dev/full", in("series.csv")), 0);
+  assert_int_equal(write_frames(sph_output_series(in("."), 1, NULL, 0), sim, 1, &error),
+                   SPH_ERR_FILE);
+  if (!strstr(error.text, strerror(ENOSPC))) fail_msg("\"%s\"", error.text);
+  sph_sim_free(sim);
+}
+
 static void killed_run_leaves_whole_files(void **state)
 {
   (void)state;
@@ -715,6 +729,7 @@ int main(void)
       TEST(reader_reads_components_and_magnitudes),
       TEST(full_disk_is_told_and_harmless),
       TEST(full_disk_leaves_whole_rows),
+      TEST(full_device_tells_why),
       TEST(killed_run_leaves_whole_files),
       TEST(impossible_directory_is_told),
       TEST(two_threads_write_at_once),
