@@ -95,21 +95,22 @@ static const char *option_name(int letter)
   return "";
 }
 
-static int number(const char *name, const char *text, int *value)
+static int number(const char *name, const char *text, int most, int *value)
 {
   char *end;
   long n = strtol(text, &end, 10);
   *value = (int)n;
-  if (end != text && !*end && n >= 1 && n <= 4096) return PROG_OK;
-  return sph_prog_error(PROG_USAGE, "--%s %s: wanted a whole number from 1 to 4096", name, text);
+  if (end != text && !*end && n >= 1 && n <= most) return PROG_OK;
+  return sph_prog_error(PROG_USAGE, "--%s %s: wanted a whole number from 1 to %d", name, text,
+                        most);
 }
 
 static int take(prog_options *o, int letter, const char *value)
 {
   switch (letter) {
   case 'o': o->output = value; break;
-  case 't': return number("threads", value, &o->threads);
-  case 'n': return number("frames", value, &o->frames);
+  case 't': return number("threads", value, PROG_THREADS, &o->threads);
+  case 'n': return number("frames", value, PROG_FRAMES, &o->frames);
   case 'q': o->quiet = 1; break;
   case 'f': o->force = 1; break;
   case 'b': o->strict = 1; break;

@@ -3,7 +3,8 @@
 #define SPH_PROG_H
 #include <sphode.h>
 
-enum { PROG_OK = 0, PROG_FAILED = 1, PROG_USAGE = 2, PROG_BAR = 3, PROG_SETS = 64 };
+enum { PROG_OK = 0, PROG_FAILED = 1, PROG_USAGE = 2, PROG_BAR = 3 };
+enum { PROG_SETS = 64, PROG_THREADS = 1024, PROG_FRAMES = 16 }; /* at most, as in the library */
 
 typedef struct prog_options {
   const char *what;   /* the case file, the directory, the list */

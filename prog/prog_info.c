@@ -15,6 +15,7 @@ typedef struct row {
 typedef struct list {
   const char *name;
   const char *detail[4]; /* names of the columns between name and formula */
+  const char *kinds;     /* a letter for each: n: number, t: text, y: yes or no */
   int (*get)(int k, row *r);
 } list;
 
@@ -64,11 +65,11 @@ static int integrator_row(int k, row *r)
 }
 
 static const list lists[] = {
-    {"kernels", {"smoothness", "support/h", "h/dx"}, kernel_row},
-    {"eos", {NULL}, eos_row},
-    {"terms", {NULL}, term_row},
-    {"integrators", {"order", "stages", "error-control", "stability"}, integrator_row},
-    {"boundaries", {NULL}, boundary_row},
+    {"kernels", {"smoothness", "support/h", "h/dx"}, "tnn", kernel_row},
+    {"eos", {NULL}, "", eos_row},
+    {"terms", {NULL}, "", term_row},
+    {"integrators", {"order", "stages", "error-control", "stability"}, "nnyn", integrator_row},
+    {"boundaries", {NULL}, "", boundary_row},
 };
 
 static void json_string(const char *text)
@@ -81,6 +82,16 @@ static void json_string(const char *text)
   putchar('"');
 }
 
+static void json_value(char kind, const char *text)
+{
+  if (kind == 't')
+    json_string(text);
+  else if (kind == 'y')
+    fputs(!strcmp(text, "yes") ? "true" : "false", stdout);
+  else
+    fputs(isfinite(strtod(text, NULL)) ? text : "null", stdout);
+}
+
 static void print_json(const list *l)
 {
   row r = {0};
@@ -91,7 +102,7 @@ static void print_json(const list *l)
       fputs(", ", stdout);
       json_string(l->detail[d]);
       fputs(": ", stdout);
-      json_string(r.detail[d]);
+      json_value(l->kinds[d], r.detail[d]);
     }
     if (r.formula) fputs(", \"formula\": ", stdout);
     if (r.formula) json_string(r.formula);

@@ -58,6 +58,7 @@ usage "no argument" "run wants one CASE.yml, found 0" run
 usage "two arguments" "found 2" run "$dam" "$dam"
 usage "threads that are no number" "--threads 1e3: wanted a whole number" run --threads 1e3 "$dam"
 usage "no threads" "--threads 0" run --threads 0 "$dam"
+usage "more threads than the library takes" "from 1 to 1024" run --threads 1025 "$dam"
 run 2 "$sphode" info pets && grep -q "known are kernels, eos, terms" err
 ok $? "an unknown list names the known ones"
 run 2 "$sphode" info kernels --csv --q 0,x && grep -q "found 'x'" err && [[ ! -s out ]]
@@ -84,6 +85,9 @@ for list in kernels eos terms integrators boundaries; do
   run 0 "$sphode" info $list --json && { ! command -v python3 >/dev/null || python3 -m json.tool <out >/dev/null; } || good=1
 done
 ok $good "each list, for people and as JSON"
+"$sphode" info kernels --json | grep -q '"name": "wendland-c2", "smoothness": "C2", "support/h": 2, "h/dx": 1\.' &&
+  "$sphode" info integrators --json | grep -q '"name": "leapfrog", "order": 2, "stages": 1, "error-control": false, "stability": 0\.'
+ok $? "numbers and flags in JSON are none of its strings"
 run 0 "$sphode" info case && grep -q "spacing" out
 ok $? "the manual of case files"
 "$sphode" info case >/dev/full 2>err
