@@ -24,8 +24,9 @@ typedef struct sph_output {
   /* Each returns 0 or < 0 with the reason in error.  open: before the first frame; NULL is fine. */
   int (*open)(void *ctx, struct sph_sim *sim, sph_error *error);
   int (*frame)(void *ctx, struct sph_sim *sim, sph_error *error);
-  int (*close)(void *ctx, struct sph_sim *sim,
-               sph_error *error); /* after the last frame, also of a failed run */
+  /* After the last frame: when the simulation is freed or a run fails, not when sph_sim_run
+   * returns, after which it may go on.  What close writes is read back after sph_sim_free. */
+  int (*close)(void *ctx, struct sph_sim *sim, sph_error *error);
   void *ctx;
   void (*free)(void *ctx); /* called once */
 } sph_output;
