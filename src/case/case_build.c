@@ -270,7 +270,7 @@ sph_sim *sph_case_build(const sph_case *c, int threads, sph_error *error)
   sph_error own = {0};
   builder b = {.c = c, .error = error ? error : &own};
   if (!c) sph_error_set(b.error, SPH_ERR_ARGUMENT, "a simulation of no case (NULL)");
-  if (b.error->status) return NULL;
+  if (!c || b.error->status) return NULL;
   sph_sim_def def = sim_def(c, threads);
   b.sim = sph_sim_create(&def);
   if (!b.sim)
