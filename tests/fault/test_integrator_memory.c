@@ -8,26 +8,9 @@
 #include <cmocka.h>
 #include <math.h>
 
+#include "failing.h"
 #include "integrator.h"
-#include "memory.h"
 #include "nvector.h"
-
-static long fail_at, calls; /* call number fail_at fails; 0: none does */
-
-/* Both doors of memory.c that are used here: calls inside it are not seen by the linker. */
-void *__real_sph_memory_take(size_t count, size_t size);
-void *__wrap_sph_memory_take(size_t count, size_t size);
-void *__wrap_sph_memory_take(size_t count, size_t size)
-{
-  return ++calls == fail_at ? NULL : __real_sph_memory_take(count, size);
-}
-
-void *__real_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
-void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
-void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error)
-{
-  return __real_sph_memory_new(++calls == fail_at ? SIZE_MAX : count, size, what, error);
-}
 
 static int decay(double t, N_Vector y, N_Vector rate, void *ctx)
 {

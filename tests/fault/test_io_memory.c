@@ -11,49 +11,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "memory.h"
+#include "failing.h"
 #include "sphode.h"
 
-static long fail_at, calls; /* call number fail_at fails; 0: none does */
 static char directory[200];
 static sph_sim *sim;
-
-static int fails(void) { return ++calls == fail_at; }
-
-/* All doors of memory.c: calls inside it are not seen by the linker. */
-void *__real_sph_memory_take(size_t count, size_t size);
-void *__wrap_sph_memory_take(size_t count, size_t size);
-void *__wrap_sph_memory_take(size_t count, size_t size)
-{
-  return fails() ? NULL : __real_sph_memory_take(count, size);
-}
-
-void *__real_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
-void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
-void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error)
-{
-  return __real_sph_memory_new(fails() ? SIZE_MAX : count, size, what, error);
-}
-
-int __real_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
-                           const char *what, sph_error *error);
-int __wrap_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
-                           const char *what, sph_error *error);
-int __wrap_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
-                           const char *what, sph_error *error)
-{
-  if (fails()) return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: %s", what);
-  return __real_sph_memory_grow(pointer, old_count, new_count, size, what, error);
-}
-
-char *__real_sph_memory_string(const char *text, sph_error *error);
-char *__wrap_sph_memory_string(const char *text, sph_error *error);
-char *__wrap_sph_memory_string(const char *text, sph_error *error)
-{
-  if (!fails()) return __real_sph_memory_string(text, error);
-  sph_error_set(error, SPH_ERR_MEMORY, "out of memory: a string");
-  return NULL;
-}
 
 static int run(sph_output output, sph_error *error)
 {

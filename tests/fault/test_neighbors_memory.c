@@ -10,42 +10,10 @@
 
 #include <cmocka.h>
 
-#include "memory.h"
+#include "failing.h"
 #include "sphode/neighbors.h"
 
 enum { POINTS = 500 };
-
-static long taken, failing; /* allocations so far; the one that fails, 0: none */
-
-static int fails(void) { return ++taken == failing; }
-
-void *__real_sph_memory_take(size_t count, size_t size);
-void *__wrap_sph_memory_take(size_t count, size_t size);
-void *__real_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
-void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error);
-int __real_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
-                           const char *what, sph_error *error);
-int __wrap_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
-                           const char *what, sph_error *error);
-
-void *__wrap_sph_memory_take(size_t count, size_t size)
-{
-  return fails() ? NULL : __real_sph_memory_take(count, size);
-}
-
-void *__wrap_sph_memory_new(size_t count, size_t size, const char *what, sph_error *error)
-{
-  if (!fails()) return __real_sph_memory_new(count, size, what, error);
-  sph_error_set(error, SPH_ERR_MEMORY, "out of memory: %s", what);
-  return NULL;
-}
-
-int __wrap_sph_memory_grow(void **pointer, size_t old_count, size_t new_count, size_t size,
-                           const char *what, sph_error *error)
-{
-  if (!fails()) return __real_sph_memory_grow(pointer, old_count, new_count, size, what, error);
-  return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: %s", what);
-}
 
 static double x[2][POINTS];
 
@@ -61,7 +29,7 @@ static long count(sph_neighbors *nb, long n, sph_error *error)
   return sph_neighbors_find(nb, 0, 0, 7, 0, NULL, NULL);
 }
 
-/* The whole life of a search, which grows once; all in one, `failing` counts through it. */
+/* The whole life of a search, which grows once; all in one, `fail_at` counts through it. */
 static long live(const sph_neighbors_def *def)
 {
   sph_error error = {0};
@@ -76,7 +44,7 @@ static long live(const sph_neighbors_def *def)
     assert_int_equal(large, SPH_ERR_MEMORY);
     if (error.status) assert_non_null(strstr(error.text, "out of memory"));
     long again = count(nb, POINTS, NULL);
-    failing = 0;
+    fail_at = 0;
     assert_int_equal(again, count(nb, POINTS, NULL));
   }
   sph_neighbors_free(nb);
@@ -95,15 +63,15 @@ static void each_allocation(void **state)
                                    .threads = threads,
                                    .periodic = {1, 0, 0},
                                    .length = {21, 0, 0}};
-    taken = failing = 0;
-    long right = live(&def), all = taken;
+    calls = fail_at = 0;
+    long right = live(&def), all = calls;
     assert_true(right > 5 && all > 15);
     for (long k = 1; k <= all; k++) {
-      taken = 0;
-      failing = k;
+      calls = 0;
+      fail_at = k;
       assert_int_equal(live(&def), SPH_ERR_MEMORY);
     }
-    taken = failing = 0;
+    calls = fail_at = 0;
     assert_int_equal(live(&def), right);
   }
 }
