@@ -8,16 +8,17 @@ extern "C" {
 #endif
 
 typedef struct sph_integrator_def {
-  const char
-      *method; /* "erk:<ARKODE table>", "leapfrog", "verlet"; NULL: "erk:bogacki-shampine-4-2-3" */
-  double
-      cfl; /* fraction of the scheme's stability limit; 0: 0.8 with error control, 0.35 without */
-  double tolerance; /* relative to the physical scales of each field; 0: 1e-2; < 0: no error control
-                       (CFL alone) */
-  double dt_max;    /* [s]; 0: no limit */
-  double dt_min;    /* a smaller step is a failure [s]; 0: 1e-9 of the first limit */
-  double dt_fixed;  /* > 0: this step always (limits are recorded, not obeyed) [s] */
-  int retries;      /* halvings after a step that is not admissible before giving up; 0: 12 */
+  /* "erk:<ARKODE table>", "leapfrog", "verlet" (the same); NULL: "erk:bogacki-shampine-4-2-3" */
+  const char *method;
+  /* Fraction of the scheme's stability limit; 0: 0.8 with error control, 0.35 without. */
+  double cfl;
+  /* Of a step's error, relative to the physical scales of each field; 0: 1e-2, or none where the
+   * scheme has no estimate; < 0: no error control (CFL alone). */
+  double tolerance;
+  double dt_max;   /* [s]; 0: no limit */
+  double dt_min;   /* a smaller step is a failure [s]; 0: 1e-9 of the first limit */
+  double dt_fixed; /* > 0: this step always, limits are not obeyed, nothing is halved [s] */
+  int retries;     /* halvings after a step that is not admissible before giving up; 0: 12 */
 } sph_integrator_def;
 
 /* What one integrator is: a row of the table that `sphode info integrators` prints. */
@@ -26,7 +27,7 @@ typedef struct sph_integrator_info {
   int order;
   int stages;        /* right-hand sides a step */
   int error_control; /* has an embedded error estimate */
-  double stability;  /* measured stability limit S: dt <= S h/(c + |v|) */
+  double stability;  /* limit S, measured or estimated: dt <= S h/(c + |v|) */
 } sph_integrator_info;
 
 /* Row k = 0, 1, ...; returns 0 behind the last. */
@@ -34,16 +35,17 @@ SPH_API int sph_integrator_info_get(int k, sph_integrator_info *info);
 
 /* What happened so far. */
 typedef struct sph_step_stats {
-  long steps, rejected,
-      retries; /* accepted steps; failed error tests; steps repeated after SPH_RETRY */
+  long steps;    /* accepted */
+  long rejected; /* failed error tests */
+  long retries;  /* attempts repeated with half the step after SPH_RETRY */
   long rhs_evaluations;
   long bound_by[8];                        /* accepted steps by what bound them: enum sph_bound */
   double dt_last, dt_smallest, dt_largest; /* [s] */
 } sph_step_stats;
 
 enum sph_bound {
-  SPH_BOUND_CFL, /* acoustic limit */
-  SPH_BOUND_VISCOUS,
+  SPH_BOUND_CFL,     /* acoustic limit */
+  SPH_BOUND_VISCOUS, /* and CONDUCTION: for terms to come, no built-in one sets them yet */
   SPH_BOUND_FORCE,
   SPH_BOUND_CONDUCTION,
   SPH_BOUND_ERROR, /* error control */

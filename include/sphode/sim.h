@@ -25,8 +25,10 @@ typedef struct sph_sim_def {
   int periodic[3];    /* direction is periodic */
   double origin[3];   /* lower corner of the periodic box [m] */
   double length[3];   /* its lengths [m] */
-  double speed; /* reference speed V for error weights [m/s]; 0: max(sqrt(g height), 0.01 c0) */
-  double skin;  /* of the neighbour lists, in h; < 0: none; 0: 0.2 */
+  /* Least speed V of the error weights [m/s]; V is the largest of it, sqrt(g height), |v| at the
+   * start and 0.01 c0 (gas: the mean sound speed). */
+  double speed;
+  double skin;           /* of the neighbour lists, in h; < 0: none; 0: 0.2 */
   const char *neighbors; /* NULL: "blocks"; "brute-force": the reference */
   const char *isa; /* NULL: what the CPU has (or SPHODE_ISA); "reference": one lane, plain loops */
 } sph_sim_def;
@@ -65,8 +67,8 @@ SPH_API const char *sph_sim_integrator(const sph_sim *sim);
 SPH_API int sph_sim_threads(const sph_sim *sim);
 SPH_API sph_group *sph_sim_group(const sph_sim *sim, const char *name); /* NULL: no such group */
 SPH_API sph_group *sph_sim_group_get(const sph_sim *sim, int k);        /* NULL behind the last */
-SPH_API long
-sph_sim_revision(const sph_sim *sim); /* rises when particles move house: pointers end */
+/* Rises when particles move house: pointers end. */
+SPH_API long sph_sim_revision(const sph_sim *sim);
 
 /* Conserved quantities of the fluids in the state shown. */
 typedef struct sph_balance {

@@ -32,8 +32,8 @@ typedef struct sph_term sph_term;
 struct sph_term {
   const char *name; /* "pressure", ... or the user's own; copied when attached */
   /* Parameters of the built-in terms; each constructor says which it reads. */
-  const char
-      *form; /* continuity, pressure: "c2" (NULL: default) or "c1" (continuity) / "s" (pressure) */
+  /* continuity: "c2" (NULL) or "c1"; pressure: "c2" (NULL) or "s"; delta: "molteni" or "antuono" */
+  const char *form;
   double alpha, beta; /* artificial viscosity; alpha: artificial conductivity */
   double delta;       /* density diffusion */
   double g[3];        /* uniform body force [m/s^2] */
@@ -41,9 +41,9 @@ struct sph_term {
   /* A user's own (NULL in built-in pair terms): */
   int (*body)(const sph_term *term, const sph_particles *particles);      /* 0, SPH_RETRY or < 0 */
   double (*dt_max)(const sph_term *term, const sph_particles *particles); /* [s]; NULL: no limit */
-  double (*potential)(const sph_term *term,
-                      const double x[3]); /* [J/kg] for the energy balance; NULL: none */
-  void *ctx;                              /* the user's; borrowed unless free is given */
+  /* [J/kg] for the energy balance; NULL: none */
+  double (*potential)(const sph_term *term, const double x[3]);
+  void *ctx;            /* the user's; borrowed unless free is given */
   void (*free)(void *); /* called once with ctx when the simulation lets go of it; may be NULL */
 };
 

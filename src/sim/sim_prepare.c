@@ -108,14 +108,13 @@ static void make_constants(sph_sim *sim)
   const sph_term_set *terms = &sim->terms;
   int thermal = 0;
   for (int g = 0; g < sim->groups; g++) thermal |= sim->group[g]->eos.thermal;
-  sim->loop_terms = terms->bits & ~(thermal ? 0u : (unsigned)SPH_CONDUCTIVITY);
+  sim->loop_terms = terms->bits;
   if (thermal) sim->loop_terms |= SPH_THERMAL;
   if (!terms->form_c1) sim->loop_terms |= SPH_FORM_C2;
   if (terms->alpha == 0 && terms->beta == 0) sim->loop_terms &= ~(unsigned)SPH_ARTIFICIAL;
   if (terms->delta == 0) sim->loop_terms &= ~(unsigned)(SPH_MOLTENI | SPH_ANTUONO);
   sim->constants = (fluid_constants){.terms = sim->loop_terms,
                                      .inverse_h = 1 / sim->h,
-                                     .H2 = sim->H * sim->H,
                                      .eta2 = 0.01 * sim->h * sim->h,
                                      .viscosity_1 = -terms->alpha * sim->h,
                                      .viscosity_2 = 2 * terms->beta * sim->h * sim->h,

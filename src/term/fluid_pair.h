@@ -47,7 +47,6 @@ enum { SPH_SUM_A = 0, SPH_SUM_COMPRESSION = 3, SPH_SUM_DIFFUSION, SPH_SUM_HEAT, 
 typedef struct fluid_constants {
   unsigned terms;
   double inverse_h;
-  double H2;                       /* support radius squared [m^2] */
   double eta2;                     /* 0.01 h^2 [m^2] */
   double viscosity_1, viscosity_2; /* -alpha h [m], 2 beta h^2 [m^2] */
   double alpha_u;                  /* artificial conductivity */
