@@ -12,6 +12,7 @@
 #include "sphode/group.h"
 #include "sphode/integrator.h"
 #include "sphode/kernel.h"
+#include "sphode/material.h"
 #include "sphode/neighbors.h"
 #include "sphode/output.h"
 #include "sphode/sim.h"

@@ -41,11 +41,19 @@ SPH_API sph_group *sph_group_walls(sph_sim *sim, const char *name, const double 
 SPH_API void sph_group_set_eos(sph_group *group, sph_eos eos);
 SPH_API void sph_group_set_boundary(sph_group *group, sph_boundary boundary);
 
+/* Dynamic viscosity eta [Pa s] and conductivity of heat kappa [W/(m K)] of a fluid or a wall, >= 0
+ * and finite, before the run; default 0. */
+SPH_API void sph_group_set_viscosity(sph_group *group, double eta);
+SPH_API void sph_group_set_conductivity(sph_group *group, double kappa);
+
 SPH_API const char *sph_group_name(const sph_group *group);
 SPH_API const char *sph_group_kind(const sph_group *group);   /* "fluid" or "wall" */
 SPH_API long sph_group_count(const sph_group *group);         /* particles */
 SPH_API const sph_eos *sph_group_eos(const sph_group *group); /* NULL: none yet */
 SPH_API int sph_group_thermal(const sph_group *group); /* its internal energy is integrated */
+
+SPH_API double sph_group_viscosity(const sph_group *group);    /* [Pa s]; NULL: 0 */
+SPH_API double sph_group_conductivity(const sph_group *group); /* [W/(m K)]; NULL: 0 */
 
 /* One component of a field, [count]: read it, or write it before the run or between steps (then
  * call sph_sim_changed).  Valid until the next step or, before the

@@ -34,6 +34,50 @@ const char *sph_eos_formula(const char *name)
   return k < 0 ? NULL : table[k].formula;
 }
 
+int sph_eos_has_temperature(const sph_eos *eos) { return eos && eos->c_v > 0; }
+
+void sph_eos_temperature(const sph_eos *eos, long n, const double *rho, const double *u, double *T)
+{
+  if (sph_eos_has_temperature(eos) && eos->temperature)
+    eos->temperature(eos, n, rho, u, T);
+  else
+    for (long i = 0; i < n; i++) T[i] = sph_eos_has_temperature(eos) ? u[i] / eos->c_v : NAN;
+}
+
+void sph_eos_energy(const sph_eos *eos, long n, const double *rho, const double *T, double *u)
+{
+  if (sph_eos_has_temperature(eos) && eos->energy)
+    eos->energy(eos, n, rho, T, u);
+  else
+    for (long i = 0; i < n; i++) u[i] = sph_eos_has_temperature(eos) ? T[i] * eos->c_v : NAN;
+}
+
+/* p at T (1 + e). */
+static double pressure_beside(const sph_eos *eos, double rho, double T, double e)
+{
+  double beside = T * (1 + e), u, p, c;
+  sph_eos_energy(eos, 1, &rho, &beside, &u);
+  eos->pressure(eos, 1, &rho, &u, &p, &c);
+  return p;
+}
+
+void sph_eos_thermal_pressure(const sph_eos *eos, long n, const double *rho, const double *T,
+                              double *pT)
+{
+  const double e = 0x1p-17;
+  int known = sph_eos_has_temperature(eos);
+  if (known && eos->thermal_pressure) {
+    eos->thermal_pressure(eos, n, rho, T, pT);
+    return;
+  }
+  for (long i = 0; i < n; i++) {
+    pT[i] = known ? 0 : NAN;
+    if (known && eos->thermal)
+      pT[i] = (pressure_beside(eos, rho[i], T[i], e) - pressure_beside(eos, rho[i], T[i], -e)) /
+              (2 * e);
+  }
+}
+
 static int check_positive(const sph_eos *eos, const char *what, double value, const char *unit,
                           sph_error *error)
 {
@@ -69,6 +113,10 @@ int sph_eos_check(const sph_eos *eos, sph_error *error)
     return sph_error_set(error, SPH_ERR_ARGUMENT,
                          "eos %s: p_min = %g Pa must be a pressure, or -INFINITY for no cut-off",
                          eos->name, eos->p_min);
+  if (!(eos->c_v >= 0 && isfinite(eos->c_v)))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "eos %s: c_v = %g J/(kg K) must be positive and finite, or 0 for unknown",
+                         eos->name, eos->c_v);
   int status = eos->thermal ? SPH_OK : check_barotropic(eos, error), k = row(eos->name);
   return status || k < 0 ? status : table[k].check(eos, error);
 }

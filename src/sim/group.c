@@ -90,6 +90,32 @@ void sph_group_set_boundary(sph_group *group, sph_boundary boundary)
   group->has_boundary = 1;
 }
 
+/* A property >= 0 and finite, set before the run. */
+static void set_property(sph_group *group, double *to, const char *what, double value,
+                         const char *unit)
+{
+  if (!settable(group, what)) return;
+  if (value >= 0 && isfinite(value))
+    *to = value;
+  else
+    sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s: %s %g %s; right is >= 0 and finite",
+                 group->name, what, value, unit);
+}
+
+void sph_group_set_viscosity(sph_group *group, double eta)
+{
+  if (group) set_property(group, &group->viscosity, "viscosity", eta, "Pa s");
+}
+
+void sph_group_set_conductivity(sph_group *group, double kappa)
+{
+  if (group) set_property(group, &group->conductivity, "conductivity", kappa, "W/(m K)");
+}
+
+double sph_group_viscosity(const sph_group *group) { return group ? group->viscosity : 0; }
+
+double sph_group_conductivity(const sph_group *group) { return group ? group->conductivity : 0; }
+
 const char *sph_group_name(const sph_group *group) { return group ? group->name : ""; }
 
 const char *sph_group_kind(const sph_group *group)

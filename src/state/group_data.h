@@ -31,7 +31,9 @@ struct sph_group {
   char eos_name[SPH_NAME_MAX];
   sph_boundary boundary; /* walls; its name points to a built-in one */
   int has_eos, has_boundary;
-  double rho0; /* walls: density where no fluid tells it [kg/m^3] */
+  double viscosity;    /* dynamic [Pa s] */
+  double conductivity; /* of heat [W/(m K)] */
+  double rho0;         /* walls: density where no fluid tells it [kg/m^3] */
 };
 
 /* All pointers of one evaluation: made at its start from the vectors at hand, never stored. */
