@@ -17,6 +17,7 @@ typedef struct sph_boundary {
   int no_slip; /* 1: viscous terms see v_w = 2 v_prescribed - <v_fluid>; 0: walls take no part in
                   them */
   int tension; /* 1: wall pressure may be negative; 0: p_w >= 0 (thin films go wrong otherwise) */
+  double temperature;   /* [K] of the wall's surface, for conduction; 0: adiabatic */
   sph_motion *motion;   /* NULL: at rest */
   void *ctx;            /* the user's; borrowed unless free is given */
   void (*free)(void *); /* called once with ctx; may be NULL */

@@ -8,8 +8,7 @@ extern "C" {
 #endif
 
 typedef struct sph_field_info {
-  const char
-      *name; /* "position", "velocity", "density", "energy", "mass", "pressure", "sound_speed" */
+  const char *name;   /* "position", "velocity", "density", "energy", "pressure", ... */
   const char *symbol; /* "x" */
   const char *unit; /* "m/s"; mass: "kg" in 3D, "kg/m" in 2D, "kg/m^2" in 1D: see sph_field_unit */
   int vector;       /* 1: dim components, 0: one */
@@ -17,7 +16,7 @@ typedef struct sph_field_info {
   int saved;        /* written to snapshots */
 } sph_field_info;
 
-/* Field k = 0, 1, ...; NULL behind the last. */
+/* Field k = 0, 1, ...; NULL behind the last.  A group's own scalars besides: sph_group_field. */
 SPH_API const sph_field_info *sph_field_get(int k);
 /* Its number, or -1. */
 SPH_API int sph_field_find(const char *name);

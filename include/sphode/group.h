@@ -7,6 +7,7 @@
 #include "sphode/base.h"
 #include "sphode/boundary.h"
 #include "sphode/eos.h"
+#include "sphode/field.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -45,12 +46,21 @@ SPH_API void sph_group_set_boundary(sph_group *group, sph_boundary boundary);
  * and finite, before the run; default 0. */
 SPH_API void sph_group_set_viscosity(sph_group *group, double eta);
 SPH_API void sph_group_set_conductivity(sph_group *group, double kappa);
+/* Which energy a fluid integrates: "u" (internal), "total" (u + v^2/2), "entropy" (A = p/rho^gamma,
+ * ideal gas), "temperature" (needs eos.c_v) or "none".  Default: "u" for a thermal equation of
+ * state, else "none".  A liquid whose pressure does not depend on it may carry u or temperature
+ * along, heated by viscosity, conduction and sources only. */
+SPH_API void sph_group_set_energy(sph_group *group, const char *variable);
 
 SPH_API const char *sph_group_name(const sph_group *group);
 SPH_API const char *sph_group_kind(const sph_group *group);   /* "fluid" or "wall" */
 SPH_API long sph_group_count(const sph_group *group);         /* particles */
 SPH_API const sph_eos *sph_group_eos(const sph_group *group); /* NULL: none yet */
-SPH_API int sph_group_thermal(const sph_group *group); /* its internal energy is integrated */
+SPH_API int sph_group_thermal(const sph_group *group); /* its pressure depends on its energy */
+SPH_API const char *sph_group_energy(const sph_group *group); /* "u", "total", ..., "none" */
+/* Field k = 0, 1, ... of the group, its scalars behind those of sph_field_get; NULL behind the
+ * last. */
+SPH_API const sph_field_info *sph_group_field(const sph_group *group, int k);
 
 SPH_API double sph_group_viscosity(const sph_group *group);    /* [Pa s]; NULL: 0 */
 SPH_API double sph_group_conductivity(const sph_group *group); /* [W/(m K)]; NULL: 0 */
@@ -58,7 +68,9 @@ SPH_API double sph_group_conductivity(const sph_group *group); /* [W/(m K)]; NUL
 /* One component of a field, [count]: read it, or write it before the run or between steps (then
  * call sph_sim_changed).  Valid until the next step or, before the
  * run, the first evaluation; NULL: no such field or component.  Derived
- * fields (pressure, sound_speed) are those of the state shown. */
+ * fields (pressure, sound_speed, energies that are not integrated) are those of the state shown:
+ * writing to them changes nothing.  Before the run a group's energy is set by "energy" (u) or
+ * sph_group_set_temperature, whichever energy it integrates. */
 SPH_API const double *sph_group_read(const sph_group *group, const char *field, int component);
 SPH_API double *sph_group_write(sph_group *group, const char *field, int component);
 /* Time derivative of an integrated field ("velocity": accelerations) at the last sph_sim_evaluate,
@@ -74,6 +86,8 @@ SPH_API void sph_group_set_hydrostatic(sph_group *group, int axis, double surfac
 /* Sets the pressure of every particle [count] through the inverse equation of state; keeps volumes,
  * scales masses.  Thermal groups: sets u at the present density instead. */
 SPH_API void sph_group_set_pressure(sph_group *group, const double *p);
+/* Sets u by the temperature of every particle [count] [K] at the present density; needs eos.c_v. */
+SPH_API void sph_group_set_temperature(sph_group *group, const double *T);
 
 #ifdef __cplusplus
 }

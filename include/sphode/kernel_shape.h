@@ -74,6 +74,13 @@ BODY vec kernel_cubic_spline_laplacian(int dim, vec q)
 #define SPH_KERNEL_LAPLACIAN(number, shape) \
   if (kernel == number) return shape##_laplacian(dim, q);
 
+/* Does f grow without bound towards q = 0? */
+BODY int kernel_shape_singular(int kernel)
+{
+  (void)kernel;
+  return 0;
+}
+
 /* Of an unknown kernel: NaN. */
 BODY vec kernel_shape_w(int kernel, int dim, vec q)
 {

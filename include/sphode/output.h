@@ -55,7 +55,8 @@ SPH_API sph_output sph_output_hdf5_def(const sph_hdf5_def *def); /* strings are 
 /* ---- time series -----------------------------------------------------------------------------
  * directory/series.csv: a line with the names and units of the columns, "front [m]", then a row a
  * frame, in the file before the run goes on.  Columns: time, step, dt, kinetic, potential,
- * internal, total, momentum_x ..., angular_momentum_z ..., and one for each monitor.
+ * internal, total, momentum_x ..., angular_momentum_z ..., NAME_mean (by mass), NAME_min, NAME_max
+ * of each scalar of a term, and one for each monitor.
  *
  * Monitors look at one fluid group or at all fluids; periodic images are not seen.
  *   front      largest coordinate along `axis` of a particle with >= 3 neighbours within 2 dx,

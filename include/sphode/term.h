@@ -23,23 +23,77 @@ typedef struct sph_particles {
   const double *p;    /* [n] pressure [Pa] */
   const double *c;    /* [n] sound speed [m/s] */
   const double *m;    /* [n] mass [kg, kg/m, kg/m^2 in 3D, 2D, 1D] */
+  const double *s;    /* [n] the term's own scalar; NULL without one */
   double *a[3];       /* [n] add accelerations [m/s^2] */
-  double *drho;       /* [n] add density rates [kg/m^3/s] */
-  double *du;         /* [n] add heating [W/kg], NULL unless thermal */
+  double *drho;       /* [n] add density rates [kg/m^3/s]; NULL where density is a sum */
+  double *du;         /* [n] add heating [W/kg], NULL unless the group has an energy */
+  double *ds;         /* [n] add rates of the term's own scalar [its unit/s]; NULL without one */
 } sph_particles;
+
+enum { SPH_TILE_READS = 8, SPH_SCALARS_MAX = 8 };
+
+/* Some pairs of one particle group (i) with sources of another or the same (j): what a pair term
+ * reads and adds to.  Every array is [n], one entry a pair; loop over k = 0 .. n - 1.  Some pairs
+ * lie outside the support: F and W are zero there, and what is added must be too, as it is if it
+ * is proportional to F or W.  A particle also meets itself, with r = v = 0. */
+typedef struct sph_tile {
+  int dim;
+  int wall; /* the sources are a wall: v is what viscous terms see, scalars mirror those of i */
+  long n;
+  double t, h;                     /* time [s], smoothing length [m] */
+  const char *target, *source;     /* names of the groups of i, of j */
+  const double *r[3], *v[3];       /* x_i - x_j [m], v_i - v_j [m/s]; NULL for d >= dim */
+  const double *r2, *rv;           /* r.r [m^2], r.v [m^2/s] */
+  const double *F;                 /* F = (dW/dr)/r <= 0: grad_i W = F r [m^-(d+2)] */
+  const double *V;                 /* volume of j [m^d] */
+  const double *m;                 /* mass of j [kg/m^(3-d)] */
+  const double *i[SPH_TILE_READS]; /* the fields that term->reads names, of i, */
+  const double *j[SPH_TILE_READS]; /* and of j */
+  const double *s_i, *s_j;         /* the term's own scalar; NULL without one */
+  /* Add: */
+  double *push;    /* [1/s^2] acceleration push * r of i: a conservative force, heats nothing */
+  double *along_r; /* [1/s^2] acceleration along_r * r: dissipative, half of its work heats i */
+  double *along_v; /* [1/s] acceleration along_v * v: likewise */
+  double *drho;    /* [kg/m^3/s] of i */
+  double *du;      /* [W/kg] heating of i */
+  double *ds;      /* [unit/s] of the term's own scalar of i; NULL without one */
+} sph_tile;
+
+/* A scalar that a term brings along: integrated with the state of every fluid particle, from
+ * `initial` on; read and written as a field of its name, saved in snapshots, in series.csv. */
+typedef struct sph_scalar {
+  const char *name; /* [A-Za-z0-9_], no other field's; NULL: none; copied */
+  const char *unit; /* "kg/m^3"; NULL: "1"; copied */
+  double scale;     /* of its error weights: a change that matters, > 0 */
+  double initial;   /* value at the start */
+} sph_scalar;
 
 typedef struct sph_term sph_term;
 struct sph_term {
   const char *name; /* "pressure", ... or the user's own; copied when attached */
   /* Parameters of the built-in terms; each constructor says which it reads. */
-  /* continuity: "c2" (NULL) or "c1"; pressure: "c2" (NULL) or "s"; delta: "molteni" or "antuono" */
+  /* continuity: "c2" (NULL), "c1", "phi"; pressure: "c2" (NULL), "s", "phi"; delta: "molteni",
+   * "antuono", "fourtakas"; viscosity-laminar: "morris" (NULL), "mcg" */
   const char *form;
-  double alpha, beta; /* artificial viscosity; alpha: artificial conductivity */
+  double alpha, beta; /* artificial viscosities; alpha: artificial conductivity */
   double delta;       /* density diffusion */
+  double epsilon;     /* xsph */
+  double exponent;    /* continuity of form phi: phi = rho^exponent */
+  int calibrate;      /* summation */
   double g[3];        /* uniform body force [m/s^2] */
   double omega;       /* harmonic body force [1/s] */
+  /* continuity of form phi: fills phi[n] > 0 instead of rho^exponent, of fluids and walls (whose
+   * rates are NULL). */
+  void (*phi)(const sph_term *term, const sph_particles *particles, double *phi);
+  /* heat-source: power [W/kg] at x [m], t [s]. */
+  double (*power)(void *ctx, const double x[3], double t);
   /* A user's own (NULL in built-in pair terms): */
-  int (*body)(const sph_term *term, const sph_particles *particles);      /* 0, SPH_RETRY or < 0 */
+  int (*body)(const sph_term *term, const sph_particles *particles); /* 0, SPH_RETRY or < 0 */
+  /* Pairs of fluid particles with fluid and wall ones, tile by tile, beside the built-in terms.
+   * Called from several threads at once: read ctx, do not write to it. */
+  void (*pair)(const sph_term *term, const sph_tile *tile);
+  const char *reads; /* fields that pair wants of both ends, as "density sound_speed"; copied */
+  sph_scalar scalar; /* what it integrates besides; scalar.name NULL: nothing */
   double (*dt_max)(const sph_term *term, const sph_particles *particles); /* [s]; NULL: no limit */
   /* [J/kg] for the energy balance; NULL: none */
   double (*potential)(const sph_term *term, const double x[3]);
@@ -47,20 +101,46 @@ struct sph_term {
   void (*free)(void *); /* called once with ctx when the simulation lets go of it; may be NULL */
 };
 
-/* d rho_i/dt: "c2": rho_i sum V_j v_ij.grad W;  "c1": sum m_j v_ij.grad W */
+/* d rho_i/dt: "c2": rho_i sum V_j v_ij.grad W;  "c1": sum m_j v_ij.grad W;
+ *      "phi": phi_i sum m_j/phi_j v_ij.grad W, phi = rho^exponent (Price 2012): 0 is c1, 1 is c2 */
 SPH_API sph_term sph_term_continuity(void);
 SPH_API sph_term sph_term_continuity_form(const char *form);
-/* a_i: "c2": - sum m_j (p_i + p_j)/(rho_i rho_j) grad W;
- *      "s":  - sum m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W;
+SPH_API sph_term sph_term_continuity_phi(double exponent);
+/* Instead of continuity: rho_i = sum m_j W_ij, itself included; density is then no part of the
+ * state.  calibrate = 1 divides the masses of liquids once, at the start, by the sum of W dx^d over
+ * the lattice: else a lattice at rest has up to 1 % more than its reference density, and the
+ * pressure of that.  Under-estimates at free surfaces.  Walls count with their reference density.
+ * Its pressure force is "s". */
+SPH_API sph_term sph_term_summation(int calibrate);
+/* a_i: "c2":  - sum m_j (p_i + p_j)/(rho_i rho_j) grad W;
+ *      "s":   - sum m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W;
+ *      "phi": - sum m_j (p_i/rho_i^2 phi_i/phi_j + p_j/rho_j^2 phi_j/phi_i) grad W, phi that of
+ *             continuity;
  * thermal fluids are heated by the partner of the same row. */
 SPH_API sph_term sph_term_pressure(void);
 SPH_API sph_term sph_term_pressure_form(const char *form);
 /* Monaghan (1992) artificial viscosity with heating; alpha, beta >= 0. */
 SPH_API sph_term sph_term_viscosity_artificial(double alpha, double beta);
+/* Artificial viscosity with a signal velocity (Monaghan 1997) and heating: alpha 0.5 to 1, beta
+ * usually 3; both >= 0. */
+SPH_API sph_term sph_term_viscosity_signal(double alpha, double beta);
+/* Laminar viscosity with heating, eta that of the groups (sph_group_set_viscosity): "morris"
+ * (Morris, Fox & Zhu 1997) or "mcg" (Monaghan, Cleary & Gingold: central, keeps angular momentum).
+ * Walls take part where they are no-slip. */
+SPH_API sph_term sph_term_viscosity_laminar(const char *form);
+/* Heat conduction (Cleary & Monaghan 1999) between groups with conductivity and specific heat;
+ * walls take part where they have a temperature. */
+SPH_API sph_term sph_term_conduction(void);
+/* Heating [W/kg] of all groups with an energy: power(ctx, x, t). */
+SPH_API sph_term sph_term_heat_source(double (*power)(void *ctx, const double x[3], double t),
+                                      void *ctx);
+/* XSPH (Monaghan 1989): dx_i/dt = v_i - epsilon sum m_j/rho_ij v_ij W_ij; 0 <= epsilon <= 1,
+ * usually up to 0.5. */
+SPH_API sph_term sph_term_xsph(double epsilon);
 /* Price (2008) artificial conductivity of thermal fluids; alpha_u >= 0, usually 1. */
 SPH_API sph_term sph_term_conductivity_artificial(double alpha_u);
-/* Density diffusion of the delta-SPH family: model "molteni" or "antuono"; delta >= 0, usually
- * 0.1. */
+/* Density diffusion of the delta-SPH family: model "molteni", "antuono" or "fourtakas" (which
+ * takes the hydrostatic density of the uniform body force out); delta >= 0, usually 0.1. */
 SPH_API sph_term sph_term_delta(const char *model, double delta);
 /* Uniform body force g[3] [m/s^2]. */
 SPH_API sph_term sph_term_gravity(const double g[3]);

@@ -9,8 +9,7 @@
   }                                                                                             \
   static void wall_##kernel##_##dim##_##thermal(const sph_pair_task *t, long b, long e)         \
   {                                                                                             \
-    sph_pair_loop(body_##kernel##_##dim##_##thermal, t, b, e, dim,                              \
-                  thermal ? 3 * dim + 5 : 2 * dim + 2, SPH_WALL_SUMS);                          \
+    sph_pair_loop(body_##kernel##_##dim##_##thermal, t, b, e, dim, 3 * dim + 7, SPH_WALL_SUMS); \
   }
 #define WALLS(kernel, dim) WALL(kernel, dim, 0) WALL(kernel, dim, 1)
 #define KERNEL(kernel) WALLS(kernel, 1) WALLS(kernel, 2) WALLS(kernel, 3)

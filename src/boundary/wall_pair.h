@@ -2,7 +2,7 @@
  * 2012, eq. 22 to 27).
  *
  *   sum_f W_wf,   sum_f p_f W_wf,   sum_f rho_f r_wf W_wf,   sum_f v_f W_wf,   sum_f u_f W_wf,
- *   r_wf = r_w - r_f
+ *   sum_f T_f W_wf,   r_wf = r_w - r_f
  *
  * Only ratios of them are used, so W goes without its constant factor. */
 #ifndef SPH_WALL_PAIR_H
@@ -15,7 +15,8 @@ enum {
   SPH_WALL_RHO_R = 2,
   SPH_WALL_V = 5,
   SPH_WALL_U = 8,
-  SPH_WALL_SUMS = 9
+  SPH_WALL_T = 9,
+  SPH_WALL_SUMS = 10
 };
 
 BODY void wall_pair(int dim, int kernel, int thermal, const fluid_constants *k, const vec *w,
@@ -26,13 +27,16 @@ BODY void wall_pair(int dim, int kernel, int thermal, const fluid_constants *k, 
   vec W = kernel_shape_w(kernel, dim, v_sqrt(fluid_dot(dim, r, r)) * k->inverse_h);
   vec rho = f[slot_rho(dim)], p = f[slot_p(dim)];
   if (!(k->terms & SPH_FORM_C2)) p *= rho * rho; /* the slot holds p/rho^2 */
+  if (k->terms & SPH_FORM_PHI) p /= f[slot_phi(dim)];
   sum[SPH_WALL_W] += W;
   sum[SPH_WALL_P] += p * W;
   for (int d = 0; d < dim; d++) {
     sum[SPH_WALL_RHO_R + d] += rho * r[d] * W;
     sum[SPH_WALL_V + d] += f[slot_v(dim) + d] * W;
   }
-  if (thermal) sum[SPH_WALL_U] += f[slot_u(dim)] * W;
+  if (!thermal) return;
+  sum[SPH_WALL_U] += f[slot_u(dim)] * W;
+  sum[SPH_WALL_T] += f[slot_T(dim)] * W;
 }
 
 #endif

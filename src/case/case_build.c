@@ -73,6 +73,7 @@ static int set_boundary(const builder *b, sph_group *group, const sph_case_node 
   boundary.name = get_text(map, "model", "adami");
   boundary.no_slip = get_number(map, "no_slip", 0) != 0;
   boundary.tension = get_number(map, "tension", 0) != 0;
+  boundary.temperature = get_number(map, "temperature", 0);
   if (motion) {
     steady *s = SPH_NEW(steady, 1, "the motion of a wall", b->error);
     if (!s) return SPH_ERR_MEMORY;
@@ -122,6 +123,10 @@ static int build_group(const builder *b, const sph_case_node *map)
   sph_group *group = sph_group_create(b->sim, map->key, get_text(map, "kind", ""));
   if (eos && !told(b, map)) sph_group_set_eos(group, eos_of(eos->first, density));
   status = told(b, eos ? eos : map);
+  if (!status && child_of(map, "energy")) {
+    sph_group_set_energy(group, get_text(map, "energy", ""));
+    status = told(b, child_of(map, "energy"));
+  }
   for (; shape && !status; shape = shape->next) status = add_shape(b, group, shape->first, density);
   if (!status && wall) status = set_boundary(b, group, boundary);
   if (!status && sph_group_count(group) == 0) status = fail(b, map, "the group has no particles");
@@ -167,16 +172,28 @@ static int set_hydrostatic(const builder *b, sph_group *group, const sph_case_no
   return told(b, map);
 }
 
+static int set_by(const builder *b, sph_group *group, const sph_case_node *node,
+                  void (*set)(sph_group *group, const double *values))
+{
+  double *values = field_of(b, group, node);
+  if (values) set(group, values);
+  sph_memory_free(values);
+  return told(b, node);
+}
+
 static int set_initial(const builder *b, const sph_case_node *map)
 {
   const sph_case_node *initial = child_of(map, "initial"), *node;
   sph_group *group = sph_sim_group(b->sim, map->key);
   int status = SPH_OK, d = 0;
   if (!initial) return SPH_OK;
-  if (!!child_of(initial, "pressure") + !!child_of(initial, "energy") +
-          !!child_of(initial, "hydrostatic") >
+  int barotropic = !sph_group_thermal(group);
+  if (!!child_of(initial, "pressure") + !!child_of(initial, "hydrostatic") +
+          (!barotropic && (child_of(initial, "energy") || child_of(initial, "temperature"))) >
       1)
-    return fail(b, initial, "only one of pressure, energy, hydrostatic can be given");
+    return fail(b, initial, "only one of pressure, energy, temperature, hydrostatic can be given");
+  if (child_of(initial, "energy") && child_of(initial, "temperature"))
+    return fail(b, initial, "only one of energy, temperature can be given");
   if ((node = child_of(initial, "velocity")))
     for (node = node->first; node && !status; node = node->next)
       status = write_field(b, group, "velocity", d++, node);
@@ -184,23 +201,60 @@ static int set_initial(const builder *b, const sph_case_node *map)
     status = write_field(b, group, "energy", 0, node);
   if (!status && (node = child_of(initial, "hydrostatic")))
     status = set_hydrostatic(b, group, node);
-  if (!status && (node = child_of(initial, "pressure"))) {
-    double *p = field_of(b, group, node);
-    if (p) sph_group_set_pressure(group, p);
-    sph_memory_free(p);
-    status = told(b, node);
-  }
+  if (!status && (node = child_of(initial, "pressure")))
+    status = set_by(b, group, node, sph_group_set_pressure);
+  if (!status && (node = child_of(initial, "temperature")))
+    status = set_by(b, group, node, sph_group_set_temperature);
   return status;
 }
 
 /* ---- terms, integrator */
 
+static int heat(const sph_term *term, const sph_particles *s)
+{
+  double q[256];
+  enum { CHUNK = sizeof q / sizeof *q };
+  for (long i = 0; s->du && i < s->n; i += CHUNK) {
+    long n = s->n - i < CHUNK ? s->n - i : CHUNK;
+    const double *x[3] = {NULL, NULL, NULL};
+    for (int d = 0; d < s->dim; d++) x[d] = s->x[d] + i;
+    if (sph_case_value_formula_at(term->ctx, n, x, s->t, q)) return SPH_ERR_ARGUMENT;
+    for (long k = 0; k < n; k++) s->du[i + k] += q[k];
+  }
+  return SPH_OK;
+}
+
+static int add_heating(const builder *b, const sph_case_node *map)
+{
+  const sph_case_node *node = child_of(map, "power");
+  sph_case_value value;
+  sph_case_formula *formula =
+      sph_case_value_formula_create(node->text, b->c->names, b->c->n, b->c->dim, &value);
+  if (!formula)
+    return sph_case_schema_fail(b->c, b->error, node, 1, value.column, "power: %s", value.problem);
+  sph_sim_add_term(b->sim, (sph_term){.name = "heat-source",
+                                      .body = heat,
+                                      .ctx = formula,
+                                      .free = sph_case_value_formula_free});
+  return told(b, map);
+}
+
 static sph_term term_of(const sph_case_node *map)
 {
-  const char *name = map->key;
+  const char *name = map->key, *form = get_text(map, "form", NULL);
   double alpha = get_number(map, "alpha", 0), g[3];
-  if (!strcmp(name, "continuity")) return sph_term_continuity_form(get_text(map, "form", NULL));
-  if (!strcmp(name, "pressure")) return sph_term_pressure_form(get_text(map, "form", NULL));
+  if (!strcmp(name, "continuity")) {
+    sph_term term = sph_term_continuity_form(form);
+    term.exponent = get_number(map, "exponent", 1);
+    return term;
+  }
+  if (!strcmp(name, "summation")) return sph_term_summation(get_number(map, "calibrate", 1) != 0);
+  if (!strcmp(name, "viscosity-signal"))
+    return sph_term_viscosity_signal(alpha, get_number(map, "beta", 0));
+  if (!strcmp(name, "viscosity-laminar")) return sph_term_viscosity_laminar(form);
+  if (!strcmp(name, "conduction")) return sph_term_conduction();
+  if (!strcmp(name, "xsph")) return sph_term_xsph(get_number(map, "epsilon", 0));
+  if (!strcmp(name, "pressure")) return sph_term_pressure_form(form);
   if (!strcmp(name, "viscosity-artificial"))
     return sph_term_viscosity_artificial(alpha, get_number(map, "beta", 0));
   if (!strcmp(name, "conductivity-artificial")) return sph_term_conductivity_artificial(alpha);
@@ -256,6 +310,10 @@ static int build_parts(const builder *b)
   for (node = child_of(root, "groups")->first; node && !status; node = node->next)
     status = build_group(b, node);
   for (node = child_of(root, "terms")->first; node && !status; node = node->next) {
+    if (!strcmp(node->key, "heat-source")) {
+      status = add_heating(b, node);
+      continue;
+    }
     sph_sim_add_term(b->sim, term_of(node));
     status = told(b, node);
   }

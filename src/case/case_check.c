@@ -152,7 +152,9 @@ static int check_field(sph_case *c, const sph_case_key *key, sph_case_node *node
 {
   sph_case_value value;
   if (not_scalar(c, key, node, "an expression")) return SPH_ERR_PARSE;
-  if (sph_case_value_field_unit(node->text, c->names, c->n, c->dim, &value))
+  int timed = key->type == SPH_CASE_FORMULA_T;
+  if ((timed ? sph_case_value_formula_unit : sph_case_value_field_unit)(node->text, c->names, c->n,
+                                                                        c->dim, &value))
     return FAIL(node, value.column, "%s: %s", key->name, value.problem);
   return check_unit(c, key, node, &value);
 }
@@ -250,7 +252,8 @@ static int check_value(sph_case *c, const sph_case_key *key, sph_case_node *node
   case SPH_CASE_LARGEST_T: return check_number(c, key, node);
   case SPH_CASE_VECTOR_T: return check_list(c, key, SPH_CASE_NUMBER_T, c->dim, node);
   case SPH_CASE_PAIR_T: return check_list(c, key, SPH_CASE_NUMBER_T, 2, node);
-  case SPH_CASE_FIELD_T: return check_field(c, key, node);
+  case SPH_CASE_FIELD_T:
+  case SPH_CASE_FORMULA_T: return check_field(c, key, node);
   case SPH_CASE_FIELDS_T: return check_list(c, key, SPH_CASE_FIELD_T, c->dim, node);
   }
   return SPH_ERR_STATE;
@@ -336,20 +339,27 @@ static int check_fluid(sph_case *c)
   return FAIL_KEY(groups, "groups: no fluid among them; at least one has kind: fluid");
 }
 
-/* Continuity and pressure must be partners, or energy is not conserved. */
+/* Density and pressure must be partners, or energy is not conserved. */
 static int check_forms(sph_case *c)
 {
+  static const char *const partner[][2] = {{"c2", "c2"}, {"c1", "s"}, {"phi", "phi"}};
   const sph_case_node *terms = sph_case_reader_find(c->root, "terms");
   const sph_case_node *continuity = sph_case_reader_find(terms, "continuity");
-  const sph_case_node *pressure = sph_case_reader_find(terms, "pressure");
   const sph_case_node *one = sph_case_reader_find(continuity, "form");
-  const sph_case_node *other = sph_case_reader_find(pressure, "form");
-  if (!one || !other || !strcmp(one->text, "c2") == !strcmp(other->text, "c2")) return SPH_OK;
-  int given = !other->origin || strcmp(other->origin, "default"); /* else continuity's was */
+  const sph_case_node *summation = sph_case_reader_find(terms, "summation");
+  const sph_case_node *other =
+      sph_case_reader_find(sph_case_reader_find(terms, "pressure"), "form");
+  if (summation && continuity)
+    return FAIL_KEY(summation, "summation: density is that of continuity already; one of them");
+  const char *row = summation ? "c1" : one ? one->text : NULL;
+  if (!row || !other) return SPH_OK;
+  for (int k = 0; k < 3; k++)
+    if (!strcmp(row, partner[k][0]) && !strcmp(other->text, partner[k][1])) return SPH_OK;
+  int given = !one || !other->origin || strcmp(other->origin, "default"); /* else continuity's */
   return FAIL(given ? other : one, 0,
-              "form: found pressure %s with continuity %s, which do not conserve energy; right are "
-              "c2 with c2, or s with c1",
-              other->text, one->text);
+              "form: found pressure %s with %s%s, which do not conserve energy; right are "
+              "c2 with c2, s with c1 or summation, phi with phi",
+              other->text, summation ? "summation" : "continuity ", summation ? "" : row);
 }
 
 int sph_case_check(sph_case *c)

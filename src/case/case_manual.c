@@ -22,7 +22,7 @@ static const char head[] =
     "any unit is taken as SI. Names come from `parameters`; each may use those above it. Known\n"
     "functions are those of muParser: `sqrt`, `sin`, `exp`, `min`, `max`, `abs`, ..., "
     "`x < 0 ? a : b`, and the constant `pi`.\nExpressions of the initial state may use the "
-    "coordinates `x`, `y`, `z`.\n\n"
+    "coordinates `x`, `y`, `z`, those of sources the time `t`, too.\n\n"
     "**Units**: kg g, m km dm cm mm um in ft, s ms us min, Hz kHz, N kN, Pa hPa kPa MPa GPa bar "
     "mbar, J kJ MJ, W kW, and their\nproducts, quotients and powers.\n\n"
     "An **error** tells its place, what was found and what is right:\n\n"
@@ -35,7 +35,8 @@ static const char *type_of(const sph_case_key *key)
                                       "names to numbers", "text",       "word",
                                       "list of words",    "true/false", "whole number",
                                       "number",           "number",     "vector",
-                                      "[from, to]",       "expression", "vector of expressions"};
+                                      "[from, to]",       "expression", "vector of expressions",
+                                      "expression"};
   return words[key->type];
 }
 

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "memory.h"
+
 /* Units are checked without a parser of our own: the expression is evaluated again with the
  * kilogram, the metre and the second made 4 times larger and smaller.  A value that grows as a
  * power of each has that dimension; one that does not adds what cannot be added. */
@@ -235,24 +237,26 @@ int sph_case_value_evaluate(const char *text, const sph_case_name *names, int n,
   return status;
 }
 
-/* names[n] and the coordinates behind them; power 1: in metres. */
-static int with_coordinates(const sph_case_name *names, int n, int dim, double power,
+/* names[n], the coordinates and, if timed, the time behind them; power 1: in metres, seconds. */
+static int with_coordinates(const sph_case_name *names, int n, int dim, int timed, double power,
                             sph_case_name all[MOST_NAMES])
 {
+  static char time[] = "t";
   static char *const word[] = {"x", "y", "z"};
   static const double point[] = {0.3711, 0.4127, 0.4391}; /* nowhere special [m] */
   int m = 0;
-  for (int k = 0; k < n && m < MOST_NAMES - 3; k++) all[m++] = names[k];
+  for (int k = 0; k < n && m < MOST_NAMES - 4; k++) all[m++] = names[k];
   for (int d = 0; d < dim; d++)
     all[m++] = (sph_case_name){.name = word[d], .value = point[d], .power = {0, power, 0}};
+  if (timed) all[m++] = (sph_case_name){.name = time, .value = 0.3319, .power = {0, 0, power}};
   return m;
 }
 
-static int field_unit(const char *text, const sph_case_name *names, int n, int dim, double power,
-                      sph_case_value *result)
+static int field_unit(const char *text, const sph_case_name *names, int n, int dim, int timed,
+                      double power, sph_case_value *result)
 {
   sph_case_name all[MOST_NAMES];
-  int m = with_coordinates(names, n, dim, power, all);
+  int m = with_coordinates(names, n, dim, timed, power, all);
   formula f;
   int status = prepare(&f, text, all, m, result);
   if (status) return status;
@@ -264,18 +268,30 @@ static int field_unit(const char *text, const sph_case_name *names, int n, int d
   return status;
 }
 
-int sph_case_value_field_unit(const char *text, const sph_case_name *names, int n, int dim,
-                              sph_case_value *result)
+static int any_unit(const char *text, const sph_case_name *names, int n, int dim, int timed,
+                    sph_case_value *result)
 {
-  int status = field_unit(text, names, n, dim, 1, result);
+  int status = field_unit(text, names, n, dim, timed, 1, result);
   if (!status) return status;
   /* "sin(3*x)": fine where everything is a plain number. */
   sph_case_value plain;
-  if (field_unit(text, names, n, dim, 0, &plain)) return status;
+  if (field_unit(text, names, n, dim, timed, 0, &plain)) return status;
   for (int b = 0; b < SPH_CASE_BASES; b++)
     if (plain.power[b] != 0) return status;
   *result = plain;
   return SPH_OK;
+}
+
+int sph_case_value_field_unit(const char *text, const sph_case_name *names, int n, int dim,
+                              sph_case_value *result)
+{
+  return any_unit(text, names, n, dim, 0, result);
+}
+
+int sph_case_value_formula_unit(const char *text, const sph_case_name *names, int n, int dim,
+                                sph_case_value *result)
+{
+  return any_unit(text, names, n, dim, 1, result);
 }
 
 static int evaluate_points(formula *f, muParserHandle_t parser, int first, int dim, long count,
@@ -297,7 +313,7 @@ int sph_case_value_field(const char *text, const sph_case_name *names, int n, in
                          const double *const x[], double *out, sph_case_value *result)
 {
   sph_case_name all[MOST_NAMES];
-  int m = with_coordinates(names, n, dim, 1, all);
+  int m = with_coordinates(names, n, dim, 0, 1, all);
   formula f;
   int status = prepare(&f, text, all, m, result);
   if (status) return status;
@@ -307,4 +323,73 @@ int sph_case_value_field(const char *text, const sph_case_name *names, int n, in
   if (parser) mupRelease(parser);
   pthread_mutex_unlock(&lock);
   return status;
+}
+
+/* ---- formulas that are evaluated again and again ---- */
+
+struct sph_case_formula {
+  formula f;
+  sph_case_name names[MOST_NAMES];
+  sph_case_value result;
+  muParserHandle_t parser;
+  int first, dim; /* place of x among the values */
+};
+
+/* Evaluated once here: muParser makes its code at the first evaluation. */
+static int open_formula(sph_case_formula *it, const char *text, int m)
+{
+  int status = prepare(&it->f, text, it->names, m, &it->result);
+  if (status) return status;
+  pthread_mutex_lock(&lock);
+  it->parser = translate(&it->f, si) ? NULL : open_parser(&it->f, si);
+  status = it->parser ? SPH_OK : SPH_ERR_PARSE;
+  if (!status) (void)mupEval(it->parser);
+  if (!status && mupError(it->parser)) status = muparser_problem(&it->f, it->parser);
+  pthread_mutex_unlock(&lock);
+  return status;
+}
+
+sph_case_formula *sph_case_value_formula_create(const char *text, const sph_case_name *names, int n,
+                                                int dim, sph_case_value *result)
+{
+  sph_case_formula *it = sph_memory_new(1, sizeof *it, "a formula", NULL);
+  memset(result, 0, sizeof *result);
+  if (!it) {
+    snprintf(result->problem, sizeof result->problem, "out of memory: a formula");
+    return NULL;
+  }
+  int m = with_coordinates(names, n, dim, 1, 1, it->names);
+  it->dim = dim;
+  it->first = m - dim - 1;
+  int status = open_formula(it, text, m);
+  *result = it->result;
+  it->f.text = ""; /* the text is borrowed until here */
+  if (!status) return it;
+  sph_case_value_formula_free(it);
+  return NULL;
+}
+
+int sph_case_value_formula_at(sph_case_formula *it, long count, const double *const x[], double t,
+                              double *out)
+{
+  int status = SPH_OK;
+  pthread_mutex_lock(&lock);
+  it->f.values[it->first + it->dim] = t;
+  for (long i = 0; !status && i < count; i++) {
+    for (int d = 0; d < it->dim; d++) it->f.values[it->first + d] = x[d][i];
+    out[i] = mupEval(it->parser);
+    if (mupError(it->parser) || !isfinite(out[i])) status = SPH_ERR_ARGUMENT;
+  }
+  pthread_mutex_unlock(&lock);
+  return status;
+}
+
+void sph_case_value_formula_free(void *formula_of)
+{
+  sph_case_formula *it = formula_of;
+  if (!it) return;
+  pthread_mutex_lock(&lock);
+  if (it->parser) mupRelease(it->parser);
+  pthread_mutex_unlock(&lock);
+  sph_memory_free(it);
 }

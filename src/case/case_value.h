@@ -32,4 +32,17 @@ int sph_case_value_field(const char *text, const sph_case_name *names, int n, in
 int sph_case_value_field_unit(const char *text, const sph_case_name *names, int n, int dim,
                               sph_case_value *result);
 
+/* An expression in x, y, z and the time t, translated once: evaluating it allocates nothing. */
+typedef struct sph_case_formula sph_case_formula;
+/* The unit of one at some point and time. */
+int sph_case_value_formula_unit(const char *text, const sph_case_name *names, int n, int dim,
+                                sph_case_value *result);
+/* names are copied; NULL: the problem is told in result. */
+sph_case_formula *sph_case_value_formula_create(const char *text, const sph_case_name *names, int n,
+                                                int dim, sph_case_value *result);
+/* out[count], SI, at x[d][count] [m], t [s]; SPH_ERR_ARGUMENT where a value is not finite. */
+int sph_case_value_formula_at(sph_case_formula *formula, long count, const double *const x[],
+                              double t, double *out);
+void sph_case_value_formula_free(void *formula);
+
 #endif

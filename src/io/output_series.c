@@ -26,9 +26,39 @@ static char *copy(const char *text, sph_error *error)
   return text ? sph_memory_string(text, error) : NULL;
 }
 
-static void header(const context *c, int dim, sph_text *row)
+/* Scalar k of the fluids, or NULL; all fluids have the same. */
+static const sph_field_info *scalar(const sph_sim *sim, int k)
+{
+  const sph_group *group;
+  int fixed = 0;
+  while (sph_field_get(fixed)) fixed++;
+  for (int g = 0; (group = sph_sim_group_get(sim, g)); g++)
+    if (!strcmp(sph_group_kind(group), "fluid")) return sph_group_field(group, fixed + k);
+  return NULL;
+}
+
+/* Mass-weighted mean, least and largest value of a scalar over all fluids. */
+static void add_scalar(sph_sim *sim, const char *name, sph_text *row)
+{
+  double mass = 0, sum = 0, least = INFINITY, most = -INFINITY;
+  const sph_group *group;
+  for (int g = 0; (group = sph_sim_group_get(sim, g)); g++) {
+    const double *s = sph_group_read(group, name, 0), *m = sph_group_read(group, "mass", 0);
+    for (long i = 0; s && m && i < sph_group_count(group); i++) {
+      mass += m[i];
+      sum += m[i] * s[i];
+      least = fmin(least, s[i]);
+      most = fmax(most, s[i]);
+    }
+  }
+  sph_text_add(row, ",%.15g,%.15g,%.15g", sum / mass, least, most);
+}
+
+static void header(const context *c, const sph_sim *sim, sph_text *row)
 {
   static const char *const energies[] = {"kinetic", "potential", "internal", "total"};
+  const sph_field_info *info;
+  int dim = sph_sim_dim(sim);
   sph_text_add(row, "time [s],step,dt [s]");
   for (int k = 0; k < 4; k++)
     sph_text_add(row, ",%s [%s]", energies[k], sph_units_get(SPH_UNIT_ENERGY, dim));
@@ -37,6 +67,9 @@ static void header(const context *c, int dim, sph_text *row)
   for (int d = dim == 3 ? 0 : 2; dim > 1 && d < 3; d++)
     sph_text_add(row, ",angular_momentum_%c [%s]", "xyz"[d],
                  sph_units_get(SPH_UNIT_ANGULAR_MOMENTUM, dim));
+  for (int k = 0; (info = scalar(sim, k)); k++)
+    sph_text_add(row, ",%s_mean [%s],%s_min [%s],%s_max [%s]", info->name, info->unit, info->name,
+                 info->unit, info->name, info->unit);
   for (int k = 0; k < c->n; k++)
     sph_text_add(row, ",%s [%s]", c->monitors[k].name, sph_monitor_unit(c->monitors[k].type));
   sph_text_add(row, "\n");
@@ -54,6 +87,8 @@ static int numbers(const context *c, sph_sim *sim, sph_text *row, sph_error *err
   for (int d = 0; d < dim; d++) sph_text_add(row, ",%.15g", b.momentum[d]);
   for (int d = dim == 3 ? 0 : 2; dim > 1 && d < 3; d++)
     sph_text_add(row, ",%.15g", b.angular_momentum[d]);
+  const sph_field_info *info;
+  for (int k = 0; (info = scalar(sim, k)); k++) add_scalar(sim, info->name, row);
   for (int k = 0; status == SPH_OK && k < c->n; k++) {
     double value = NAN;
     status = sph_monitor_value(&c->monitors[k], sim, &value, error);
@@ -93,7 +128,7 @@ static int open_series(void *ctx, sph_sim *sim, sph_error *error)
   c->fd = open(c->path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
   if (c->fd < 0)
     return sph_error_set(error, SPH_ERR_FILE, "cannot write %s: %s", c->path, strerror(errno));
-  header(c, sph_sim_dim(sim), &row);
+  header(c, sim, &row);
   return append(c, &row, error);
 }
 

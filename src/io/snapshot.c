@@ -125,9 +125,11 @@ static void write_numbers(writer *w, hid_t where, int part)
 
 static void write_part(writer *w, int part)
 {
+  int first = 0; /* the groups of a part have the same fields */
+  const sph_group *group = next_group(w, part, &first);
   const sph_field_info *field;
   hid_t where = sph_h5_group(&w->h5, w->file, part_names[part]);
-  for (int k = 0; (field = sph_field_get(k)); k++) {
+  for (int k = 0; (field = sph_group_field(group, k)); k++) {
     if (!field->saved || !gather(w, part, field)) continue;
     const char *name = sph_snapshot_dataset(field->name);
     sph_h5_array(&w->h5, where, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, (hsize_t)w->n[part],

@@ -49,6 +49,20 @@ static double *read_array(reader *r, hid_t group, const char *name, long n, int 
   return values;
 }
 
+/* The unit that stands at a dataset; "" where none does. */
+static void read_unit(hid_t group, const char *name, char *unit, size_t size)
+{
+  char found[64] = "";
+  if (H5Lexists(group, name, H5P_DEFAULT) <= 0) return;
+  hid_t attribute = H5Aopen_by_name(group, name, "unit", H5P_DEFAULT, H5P_DEFAULT);
+  hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
+  if (type >= 0 && H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) &&
+      H5Tget_size(type) < sizeof found && H5Aread(attribute, type, found) >= 0)
+    snprintf(unit, size, "%s", found);
+  if (type >= 0) H5Tclose(type);
+  if (attribute >= 0) H5Aclose(attribute);
+}
+
 /* One component or the magnitude of values[n][columns], in place. */
 static void reduce(double *values, long n, int columns, int component)
 {
@@ -71,6 +85,7 @@ static void read_part(reader *r, int part, const char *field, sph_snapshot *s)
   if (!s->x[part] || columns != 3)
     sph_error_set(r->error, SPH_ERR_FILE, "%s: %s has no coordinates", r->path, names[part]);
   s->value[part] = read_array(r, group, sph_snapshot_dataset(name), s->n[part], &columns);
+  read_unit(group, sph_snapshot_dataset(name), s->unit, sizeof s->unit);
   if (s->dim == 1 && component < 0) component = 0; /* its sign says more than its magnitude */
   if (s->value[part]) reduce(s->value[part], s->n[part], columns, component);
   H5Gclose(group);
@@ -106,10 +121,8 @@ static void check_field(reader *r, const char *field, sph_snapshot *s)
   char name[64], known[300] = "";
   const sph_field_info *info;
   split(field, name);
-  int k = sph_field_find(name);
-  if (k >= 0) snprintf(s->unit, sizeof s->unit, "%s", sph_field_get(k)->unit);
   if (s->value[SPH_FLUIDS] || s->value[SPH_WALLS]) return;
-  for (k = 0; (info = sph_field_get(k)); k++) {
+  for (int k = 0; (info = sph_field_get(k)); k++) {
     size_t used = strlen(known);
     snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", info->name);
   }

@@ -6,6 +6,7 @@
 
 #include "eos_table.h"
 #include "memory.h"
+#include "sim_energy.h"
 #include "sim_run.h"
 
 static int ok(const sph_group *group) { return group && sph_sim_data_ok(group->sim); }
@@ -46,6 +47,7 @@ sph_group *sph_group_create(sph_sim *sim, const char *name, const char *kind)
   group->index = sim->groups;
   for (int field = 0; field < SPH_FIELDS; field++)
     for (int c = 0; c < 3; c++) group->offset[field][c] = -1;
+  group->scalars = group->wall ? 0 : sim->terms.scalars;
   sim->group[sim->groups++] = group;
   return group;
 }
@@ -137,10 +139,71 @@ int sph_group_thermal(const sph_group *group)
 
 const long *sph_group_ids(const sph_group *group) { return group ? group->id : NULL; }
 
+/* ---- energies ---- */
+
+static const char *const energies[] = {[SPH_ENERGY_NONE] = "none",
+                                       [SPH_ENERGY_U] = "u",
+                                       [SPH_ENERGY_TOTAL] = "total",
+                                       [SPH_ENERGY_ENTROPY] = "entropy",
+                                       [SPH_ENERGY_TEMPERATURE] = "temperature"};
+
+void sph_group_set_energy(sph_group *group, const char *variable)
+{
+  if (!settable(group, "the energy")) return;
+  if (group->wall) {
+    sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s is a wall: it integrates nothing",
+                 group->name);
+    return;
+  }
+  for (int k = SPH_ENERGY_NONE; variable && k <= SPH_ENERGY_TEMPERATURE; k++)
+    if (!strcmp(variable, energies[k])) {
+      group->energy = (enum sph_energy)k;
+      return;
+    }
+  sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
+               "group %s: energy \"%s\"; known: u, total, entropy, temperature, none", group->name,
+               variable ? variable : "");
+}
+
+const char *sph_group_energy(const sph_group *group)
+{
+  if (!group || group->wall) return "none";
+  if (group->energy != SPH_ENERGY_DEFAULT) return energies[group->energy];
+  return group->has_eos && group->eos.thermal ? "u" : "none";
+}
+
+/* ---- fields ---- */
+
+void sph_group_scalars_added(sph_group *group)
+{
+  const sph_sim *sim = group->sim;
+  for (; !group->wall && group->scalars < sim->terms.scalars; group->scalars++) {
+    int field = SPH_SCALAR + group->scalars;
+    if (group->capacity && sph_group_data_own(group, field, &group->sim->error)) return;
+    for (long i = 0; i < group->n; i++)
+      group->own[field][0][i] = sim->terms.scalar[group->scalars].initial;
+  }
+}
+
+const sph_field_info *sph_group_field(const sph_group *group, int k)
+{
+  if (!group || k < SPH_SCALAR) return group ? sph_field_get(k) : NULL;
+  return k - SPH_SCALAR < group->scalars ? &group->sim->terms.scalar[k - SPH_SCALAR].info : NULL;
+}
+
+/* The number of a field, scalars too; -1: no such. */
+static int find(const sph_group *group, const char *field)
+{
+  int number = sph_field_find(field);
+  if (number >= 0 || !group) return number;
+  int scalar = sph_term_set_scalar(&group->sim->terms, field);
+  return scalar >= 0 && scalar < group->scalars ? SPH_SCALAR + scalar : -1;
+}
+
 /* Where a component lives now; NULL: no such. */
 static double *component(const sph_group *group, const char *field, int c)
 {
-  int number = sph_field_find(field);
+  int number = find(group, field);
   if (!group || number < 0 || c < 0 || c >= sph_group_data_components(group->dim, number))
     return NULL;
   const sph_sim *sim = group->sim;
@@ -148,17 +211,28 @@ static double *component(const sph_group *group, const char *field, int c)
                                   c);
 }
 
-static int is_derived(const sph_group *group, const char *field)
+/* An energy that is kept nowhere: made from the state shown. */
+static const double *made(const sph_group *group, int field)
 {
-  int number = sph_field_find(field);
-  return number == SPH_PRESSURE || number == SPH_SOUND_SPEED || (group->wall && number >= 0);
+  sph_sim *sim = group->sim;
+  if (!sph_sim_energy_has(group, field)) return NULL;
+  if (sim->prepared && sph_sim_run_derived(sim)) return NULL;
+  if (sph_sim_energy_derive(sim->group[group->index],
+                            sim->shown ? sph_nvector_data(sim->shown) : NULL, field))
+    return NULL;
+  return group->own[field][0];
 }
 
 const double *sph_group_read(const sph_group *group, const char *field, int c)
 {
-  const double *found = component(group, field, c);
-  if (found && group->sim->prepared && is_derived(group, field)) sph_sim_run_derived(group->sim);
-  return found;
+  int number = find(group, field);
+  if (!group || number < 0) return NULL;
+  int kept = number == SPH_POSITION || number == SPH_VELOCITY || number == SPH_MASS ||
+             sph_group_data_integrated(group, number);
+  int other = number == SPH_ENTHALPY || (number >= SPH_TOTAL_ENERGY && number <= SPH_TEMPERATURE);
+  if (!kept && other) return c == 0 ? made(group, number) : NULL;
+  if (group->sim->prepared && (!kept || group->wall)) sph_sim_run_derived(group->sim);
+  return component(group, field, c);
 }
 
 double *sph_group_write(sph_group *group, const char *field, int c)
@@ -168,11 +242,12 @@ double *sph_group_write(sph_group *group, const char *field, int c)
 
 const double *sph_group_rate(const sph_group *group, const char *field, int c)
 {
-  int number = sph_field_find(field);
+  int number = find(group, field);
   if (!ok(group) || !group->sim->prepared || number < 0 || c < 0 || c > 2) return NULL;
   if (group->offset[number][c] < 0) return NULL;
   return sph_nvector_data(group->sim->ydot) + group->offset[number][c];
 }
+
 sph_group *sph_group_box(sph_sim *sim, const char *name, const double *lo, const double *hi,
                          double rho0)
 {

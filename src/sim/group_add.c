@@ -41,6 +41,8 @@ static void add(sph_group *group, const double *x, double rho0)
   }
   group->own[SPH_DENSITY][0][i] = rho0;
   group->own[SPH_MASS][0][i] = rho0 * sim->volume;
+  for (int q = 0; q < group->scalars; q++)
+    group->own[SPH_SCALAR + q][0][i] = sim->terms.scalar[q].initial;
   group->rho0 = rho0;
   group->id[i] = id;
   group->n++;

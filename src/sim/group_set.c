@@ -101,3 +101,22 @@ void sph_group_set_hydrostatic(sph_group *group, int axis, double surface, doubl
     set_density(group, i, group->eos.density(&group->eos, pressure_at(&group->eos, depth, g), 0));
   }
 }
+
+void sph_group_set_temperature(sph_group *group, const double *T)
+{
+  if (!ready(group, "temperature")) return;
+  if (!T || !(group->eos.c_v > 0)) {
+    sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
+                 T ? "group %s: equation of state %s has no temperature: set eos.c_v"
+                   : "group %s: no temperatures (NULL); equation of state %s",
+                 group->name, group->eos.name);
+    return;
+  }
+  for (long i = 0; i < group->n; i++)
+    if (!isfinite(T[i])) {
+      sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s, particle %ld: temperature %g K",
+                   group->name, i, T[i]);
+      return;
+    }
+  sph_eos_energy(&group->eos, group->n, group->own[SPH_DENSITY][0], T, group->own[SPH_ENERGY][0]);
+}

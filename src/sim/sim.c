@@ -42,7 +42,7 @@ static void set_lengths(sph_sim *sim, const sph_sim_def *def)
   double h_over_dx = def->h_over_dx == 0 ? sph_kernel_h_over_dx(sim->kernel) : def->h_over_dx;
   if (positive(&sim->error, "h_over_dx", h_over_dx)) return;
   sim->dx = def->dx;
-  sim->volume = pow(def->dx, sim->dim);
+  sim->volume = sim->wall_volume = pow(def->dx, sim->dim);
   sim->h = h_over_dx * def->dx;
   sim->H = sph_kernel_support(sim->kernel) * sim->h;
   if (!isfinite(def->skin)) {
@@ -137,10 +137,9 @@ void sph_sim_add_term(sph_sim *sim, sph_term term)
                  term.name ? term.name : "");
     kept = 0;
   }
-  if (kept)
-    sph_term_set_add(&sim->terms, &term, &sim->error);
-  else if (term.free)
-    term.free(term.ctx);
+  if (kept && sph_term_set_add(&sim->terms, &term, &sim->error) == SPH_OK)
+    for (int g = 0; g < sim->groups; g++) sph_group_scalars_added(sim->group[g]);
+  if (!kept && term.free) term.free(term.ctx);
 }
 
 void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def)
@@ -228,7 +227,8 @@ int sph_sim_step(sph_sim *sim)
 {
   double begin = sph_clock();
   int status = sph_sim_prepare(sim);
-  if (!status) status = sph_sim_run_step(sim, sim->time + 1e9 * sim->limit_cfl); /* no stop */
+  if (!status)
+    status = sph_sim_run_step(sim, sim->time + 1e9 * sim->limit[SPH_BOUND_CFL]); /* no stop */
   if (sim) sim->seconds += sph_clock() - begin;
   return status;
 }

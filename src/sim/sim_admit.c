@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "count_pair.h"
 #include "sim_rhs.h"
@@ -44,15 +45,26 @@ static void count(sph_evaluation *e)
 /* What one group's rates say. */
 typedef struct extremes {
   double v2, a2, slowest; /* max v^2, max a^2, min of h/(c (1 + 0.6 alpha) + |v|) */
+  double lightest;        /* min rho */
   long bad;               /* particles with a rate that is not finite */
 } extremes;
 
+/* Magnitude of all rates but the acceleration. */
+static double others(const sph_sim *sim, const sph_view *view, long i)
+{
+  double sum = view->drho ? fabs(view->drho[i]) : 0;
+  if (view->du) sum += fabs(view->du[i]);
+  for (int q = 0; q < sim->terms.scalars; q++) sum += fabs(view->ds[q][i]);
+  return sum;
+}
+
 static extremes look(const sph_sim *sim, const sph_view *view)
 {
-  double v2_max = 0, a2_max = 0, speed_max = 0, damping = 1 + 0.6 * sim->terms.alpha;
+  double v2_max = 0, a2_max = 0, speed_max = 0, volume_max = 0;
+  double damping = 1 + 0.6 * fmax(sim->terms.alpha, sim->terms.signal_alpha);
   long bad = 0, n = view->n;
 #pragma omp parallel for num_threads(sim->threads) schedule(static)                                \
-    reduction(max : v2_max, a2_max, speed_max) reduction(+ : bad) if (n > PARALLEL_MIN)
+    reduction(max : v2_max, a2_max, speed_max, volume_max) reduction(+ : bad) if (n > PARALLEL_MIN)
   for (long i = 0; i < n; i++) {
     double v2 = 0, a2 = 0;
     for (int d = 0; d < sim->dim; d++) {
@@ -63,34 +75,57 @@ static extremes look(const sph_sim *sim, const sph_view *view)
     v2_max = v2 > v2_max ? v2 : v2_max;
     a2_max = a2 > a2_max ? a2 : a2_max;
     speed_max = speed > speed_max ? speed : speed_max;
-    bad += !(a2 + v2 + fabs(view->drho[i]) + (view->du ? fabs(view->du[i]) : 0) < INFINITY);
+    volume_max = 1 / view->rho[i] > volume_max ? 1 / view->rho[i] : volume_max;
+    bad += !(a2 + v2 + others(sim, view, i) < INFINITY);
   }
-  return (extremes){v2_max, a2_max, sim->h / speed_max, bad};
+  return (extremes){v2_max, a2_max, sim->h / speed_max, 1 / volume_max, bad};
 }
 
 /* A gas may meet itself head on: its approach speed is up to 2 max |v|. */
 static double slowest(const sph_sim *sim, const sph_group *group, const extremes *x)
 {
   if (!group->eos.thermal) return x->slowest;
-  return sim->h / (sim->h / x->slowest + (1 + 1.2 * sim->terms.beta) * sqrt(x->v2));
+  double beta = fmax(sim->terms.beta, sim->terms.signal_beta / 2);
+  return sim->h / (sim->h / x->slowest + (1 + 1.2 * beta) * sqrt(x->v2));
+}
+
+/* 0.125 h^2/nu (Morris, Fox & Zhu 1997); the central form is up to three times as stiff, for
+ * compression.  At an interface the larger viscosity meets the smaller density. */
+static double viscous(const sph_sim *sim, const extremes *x)
+{
+  double eta = 0, stiff = sim->loop_terms & SPH_MCG ? 3 : 1;
+  if (!(sim->loop_terms & (SPH_MORRIS | SPH_MCG))) return INFINITY;
+  for (int g = 0; g < sim->groups; g++)
+    if (!sim->group[g]->wall) eta = fmax(eta, sim->group[g]->viscosity);
+  return eta > 0 ? 0.125 * sim->h * sim->h * x->lightest / (eta * stiff) : INFINITY;
+}
+
+/* 0.125 h^2 rho c_v/kappa (Cleary & Monaghan 1999). */
+static double conduction(const sph_sim *sim, const sph_group *group, const extremes *x)
+{
+  if (!(sim->loop_terms & SPH_CONDUCTION) || group->conductivity == 0) return INFINITY;
+  return 0.125 * sim->h * sim->h * x->lightest * group->eos.c_v / group->conductivity;
 }
 
 int sph_sim_admit(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
-  int status = SPH_OK;
-  double cfl = INFINITY, force = INFINITY;
+  double limit[SPH_BOUND_COUNT];
+  for (int k = 0; k < SPH_BOUND_COUNT; k++) limit[k] = INFINITY;
+  limit[SPH_BOUND_USER] = sim->limit[SPH_BOUND_USER];
   if (sim->fresh) count(e);
   sim->pairs += sim->pairs_now;
-  for (int g = 0; !status && g < sim->groups; g++) {
-    if (sim->group[g]->wall) continue;
+  for (int g = 0; g < sim->groups; g++) {
+    const sph_group *group = sim->group[g];
+    if (group->wall) continue;
     const extremes x = look(sim, &e->view[g]);
-    if (x.bad) status = sph_sim_admit_retry(sim, "rates of %ld particles are not finite", x.bad);
-    cfl = fmin(cfl, slowest(sim, sim->group[g], &x));
-    if (x.a2 > 0) force = fmin(force, 0.25 * sqrt(sim->h / sqrt(x.a2)));
+    if (x.bad) return sph_sim_admit_retry(sim, "rates of %ld particles are not finite", x.bad);
+    limit[SPH_BOUND_CFL] = fmin(limit[SPH_BOUND_CFL], slowest(sim, group, &x));
+    limit[SPH_BOUND_VISCOUS] = fmin(limit[SPH_BOUND_VISCOUS], viscous(sim, &x));
+    limit[SPH_BOUND_CONDUCTION] = fmin(limit[SPH_BOUND_CONDUCTION], conduction(sim, group, &x));
+    if (x.a2 > 0)
+      limit[SPH_BOUND_FORCE] = fmin(limit[SPH_BOUND_FORCE], 0.25 * sqrt(sim->h / sqrt(x.a2)));
   }
-  if (status) return status; /* the limits stay those of the last good evaluation */
-  sim->limit_cfl = cfl;
-  sim->limit_force = force;
+  memcpy(sim->limit, limit, sizeof limit); /* else they stay those of the last good evaluation */
   return SPH_OK;
 }

@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "sim_data.h"
+#include "sim_run.h"
 
 /* What particle i adds; sums run over particles in their own order: the same for any number of
  * threads. */
@@ -21,9 +21,8 @@ static void add(const sph_sim *sim, const sph_group *group, const sph_view *view
   b->mass += m;
   b->kinetic += 0.5 * m * v2;
   b->potential += m * sph_term_set_potential(&sim->terms, x);
-  if (view->u)
-    b->internal += m * view->u[i];
-  else if (group->eos.elastic_energy)
+  if (view->u) b->internal += m * view->u[i];
+  if (!group->eos.thermal && group->eos.elastic_energy)
     b->internal += m * group->eos.elastic_energy(&group->eos, view->rho[i]);
 }
 
@@ -31,12 +30,13 @@ void sph_sim_balance(const sph_sim *sim, sph_balance *balance)
 {
   if (!balance) return;
   *balance = (sph_balance){0};
+  /* Densities that are sums and energies that are not integrated follow from the state shown. */
+  if (sim && sim->prepared && sim->groups > 0) sph_sim_run_derived(sim->group[0]->sim);
   for (int g = 0; sim && g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
     if (group->wall || !group->has_eos) continue;
     sph_view view =
         sph_group_data_view(group, sim->shown ? sph_nvector_data(sim->shown) : NULL, NULL);
-    if (!sim->prepared && group->eos.thermal) view.u = group->own[SPH_ENERGY][0];
     for (long i = 0; i < group->n; i++) add(sim, group, &view, i, balance);
   }
   balance->total = balance->kinetic + balance->internal + balance->potential;

@@ -15,12 +15,13 @@ static void start(const sph_sim *sim, const sph_view *view)
       view->dx[d][i] = view->v[d][i];
       view->dv[d][i] = sim->terms.g[d];
     }
-    view->drho[i] = 0;
+    if (view->drho) view->drho[i] = 0;
     if (view->du) view->du[i] = 0;
+    for (int q = 0; q < sim->terms.scalars; q++) view->ds[q][i] = 0;
   }
 }
 
-static sph_particles particles(const sph_evaluation *e, int g)
+sph_particles sph_sim_bodies_particles(const sph_evaluation *e, int g)
 {
   const sph_view *view = &e->view[g];
   sph_particles s = {.dim = e->sim->dim, .n = view->n, .t = e->t, .group = e->sim->group[g]->name};
@@ -39,18 +40,21 @@ static sph_particles particles(const sph_evaluation *e, int g)
   return s;
 }
 
-static int add(sph_sim *sim, const sph_term *term, const sph_particles *s)
+static int add(sph_sim *sim, const sph_called_term *call, sph_particles s, const sph_view *view)
 {
-  int status = term->body(term, s);
+  const sph_term *term = &call->term;
+  s.s = call->scalar < 0 ? NULL : view->s[call->scalar];
+  s.ds = call->scalar < 0 ? NULL : view->ds[call->scalar];
+  int status = term->body ? term->body(term, &s) : SPH_OK;
   if (status > 0) return sph_sim_admit_retry(sim, "term %s asks for a smaller step", term->name);
   if (status < 0)
     return sph_error_set(&sim->error, status, "term %s failed at t = %g s in group %s", term->name,
-                         s->t, s->group);
-  double limit = term->dt_max ? term->dt_max(term, s) : INFINITY;
+                         s.t, s.group);
+  double limit = term->dt_max ? term->dt_max(term, &s) : INFINITY;
   if (!(limit > 0))
     return sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "term %s: dt_max gave %g; right is > 0",
                          term->name, limit);
-  if (limit < sim->limit_user) sim->limit_user = limit;
+  sim->limit[SPH_BOUND_USER] = fmin(sim->limit[SPH_BOUND_USER], limit);
   return SPH_OK;
 }
 
@@ -58,13 +62,13 @@ int sph_sim_bodies_add(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
   int status = SPH_OK;
-  sim->limit_user = INFINITY;
+  sim->limit[SPH_BOUND_USER] = INFINITY;
   for (int g = 0; g < sim->groups; g++) {
     if (sim->group[g]->wall) continue;
     start(sim, &e->view[g]);
-    sph_particles s = particles(e, g);
-    for (int k = 0; !status && k < sim->terms.bodies; k++)
-      status = add(sim, &sim->terms.body[k], &s);
+    const sph_particles s = sph_sim_bodies_particles(e, g);
+    for (int k = 0; !status && k < sim->terms.called; k++)
+      status = add(sim, &sim->terms.call[k], s, &e->view[g]);
   }
   return status;
 }

@@ -9,6 +9,7 @@
 #include "sphode/pair_loop.h"
 #include "sphode/sim.h"
 #include "term_set.h"
+#include "tile_pair.h"
 
 enum { SPH_OUTPUTS_MAX = 16, SPH_METHOD_MAX = 64 };
 
@@ -17,7 +18,8 @@ typedef struct sph_sorted {
   long room;                  /* particles: a multiple of 8 */
   long stride;                /* doubles in a record */
   double *record;             /* [room * stride + SPH_PAIR_SLOTS] */
-  double *sum[SPH_PAIR_SUMS]; /* [room] */
+  double *sum[SPH_PAIR_SUMS]; /* [room]; NULL for those that no loop makes */
+  double *phi;                /* of the row phi, not sorted, [room]; NULL: another row */
   double *built[3];           /* positions at the last list build, not sorted, [capacity] */
 } sph_sorted;
 
@@ -37,7 +39,7 @@ struct sph_sim {
   const sph_kernel *kernel;
   char neighbors_method[SPH_METHOD_MAX];
   double dx, h, H, skin, speed, origin[3], length[3]; /* H: support radius; skin [m] */
-  double volume;                                      /* of a particle: dx^dim [m^dim] */
+  double volume, wall_volume; /* of a particle: dx^dim, unless calibrated [m^dim] */
 
   /* Attached. */
   int groups, outlets, has_integrator;
@@ -59,18 +61,23 @@ struct sph_sim {
   sph_neighbors *neighbors;
   sph_sorted sorted[SPH_SETS_MAX];
   unsigned loop_terms; /* bits of the fluid <- fluid loop */
-  fluid_constants constants;
-  double F_scale;                         /* sigma/h^(d+2) */
+  int fluid_sums;      /* sums that its loops make */
+  int needs_temperature;
+  int tile_terms; /* registered pair terms, and the fields that they read */
+  unsigned tile_fields;
+  sph_tile_term tile[SPH_TILE_TERMS];
+  fluid_constants constants;              /* of no interaction: for walls and gradients */
+  double F_scale, W_scale;                /* sigma/h^(d+2), sigma/h^d */
   double scale[SPH_SETS_MAX][SPH_FIELDS]; /* error weights: physical scale of each field */
   double step_scale_v;                    /* V of the error weights [m/s] */
 
   /* Moving. */
-  double time;                               /* of the state shown */
-  double start;                              /* of the run: frames count from here */
-  int listed;                                /* neighbour lists exist */
-  int fresh;                                 /* ... and have not been counted yet */
-  int derived;                               /* pressure etc. are those of the state shown */
-  double limit_cfl, limit_force, limit_user; /* step limits of the last evaluation [s] */
+  double time;                   /* of the state shown */
+  double start;                  /* of the run: frames count from here */
+  int listed;                    /* neighbour lists exist */
+  int fresh;                     /* ... and have not been counted yet */
+  int derived;                   /* pressure etc. are those of the state shown */
+  double limit[SPH_BOUND_COUNT]; /* step limits of the last evaluation [s] */
   long near;        /* particles nearer than 0.1 dx to another, at the last list build */
   double pairs_now; /* directed pairs inside the support, at the last list build */
   double pairs, seconds, rhs_seconds;

@@ -5,8 +5,10 @@ static double held(const sph_sim *sim)
   double doubles = 3.0 * (double)sim->layout.length; /* without the integrator's own vectors */
   for (int g = 0; g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
-    doubles +=
-        (double)sim->sorted[g].room * (SPH_PAIR_SUMS + (double)sim->sorted[g].stride + sim->dim);
+    const sph_sorted *sorted = &sim->sorted[g];
+    int arrays = (int)sorted->stride + sim->dim + (sorted->phi != NULL);
+    for (int s = 0; s < SPH_PAIR_SUMS; s++) arrays += sorted->sum[s] != NULL;
+    doubles += (double)sorted->room * arrays;
     for (int field = 0; field < SPH_FIELDS; field++)
       for (int c = 0; c < 3; c++) doubles += group->own[field][c] ? (double)group->capacity : 0;
   }

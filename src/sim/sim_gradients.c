@@ -56,7 +56,7 @@ int sph_sim_gradients(sph_evaluation *e)
     if (sim->group[g]->wall) continue;
     sph_sim_pairs_clear(sim, g, gradient_sums(sim->dim));
     for (int s = 0; s < sim->groups; s++)
-      if (sph_sim_pairs_same_fluid(sim->group[g], sim->group[s]))
+      if (sph_sim_interaction_same_fluid(sim->group[g], sim->group[s]))
         sph_sim_pairs_loop(sim, loop, g, s, &sim->constants);
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (e->view[g].n > 2048)
     for (long s = 0; s < e->view[g].n; s++) finish(sim, &sim->sorted[g], s);

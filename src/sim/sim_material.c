@@ -1,6 +1,7 @@
 /* Phase eos: pressure and sound speed of every fluid particle. */
 #include <math.h>
 
+#include "sim_energy.h"
 #include "sim_rhs.h"
 
 enum { PARALLEL_MIN = 4096, CHUNK = 2048 };
@@ -26,7 +27,8 @@ int sph_sim_material_eos(sph_evaluation *e)
     if (bad)
       return sph_sim_admit_retry(sim, "%s: density of %ld particles is not positive", group->name,
                                  bad);
-    if (view->u && (bad = not_positive(view->u, n, sim->threads)))
+    sph_sim_energy_internal(sim, group, view);
+    if (group->eos.thermal && (bad = not_positive(view->u, n, sim->threads)))
       return sph_sim_admit_retry(sim, "%s: internal energy of %ld particles is not positive",
                                  group->name, bad);
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
@@ -35,4 +37,26 @@ int sph_sim_material_eos(sph_evaluation *e)
                           view->u ? view->u + i : NULL, view->p + i, view->c + i);
   }
   return SPH_OK;
+}
+
+static void powers(const sph_sim *sim, const sph_view *view, double *phi)
+{
+  const double exponent = sim->terms.phi.exponent;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (view->n > PARALLEL_MIN)
+  for (long i = 0; i < view->n; i++) phi[i] = pow(view->rho[i], exponent);
+}
+
+void sph_sim_material_phi(sph_evaluation *e, int walls)
+{
+  const sph_sim *sim = e->sim;
+  const sph_term *term = &sim->terms.phi;
+  for (int g = 0; g < sim->groups; g++) {
+    double *phi = sim->sorted[g].phi;
+    if (!phi || sim->group[g]->wall != walls) continue;
+    if (term->phi) {
+      const sph_particles particles = sph_sim_bodies_particles(e, g);
+      term->phi(term, &particles, phi);
+    } else
+      powers(sim, &e->view[g], phi);
+  }
 }

@@ -3,8 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "fluid_loops.h"
+#include "sim_energy.h"
 #include "sim_rhs.h"
+#include "tile_pair.h"
 #include "wall_pair.h"
 
 enum { PARALLEL_MIN = 2048, PACKED = 256, BLOCKS = 64 };
@@ -16,6 +17,8 @@ typedef struct packing {
   const int *order;
   const double *wrap[3];   /* periodic boxes to subtract; NULL: not periodic */
   double *const *wall_sum; /* of the extrapolation; NULL for fluids */
+  double wall_T;           /* of an isothermal wall [K], else 0 */
+  const double *phi;       /* NULL: another row */
   double *record;
   long stride;
 } packing;
@@ -26,6 +29,8 @@ static packing packing_of(const sph_evaluation *e, int g)
   packing k = {.sim = sim, .view = e->view[g], .order = sph_neighbors_order(sim->neighbors, g)};
   for (int d = 0; d < sim->dim; d++) k.wrap[d] = sph_neighbors_wrap(sim->neighbors, g, d);
   k.wall_sum = sim->group[g]->wall ? sim->sorted[g].sum : NULL;
+  k.wall_T = sim->group[g]->boundary.temperature;
+  k.phi = sim->sorted[g].phi;
   k.record = sim->sorted[g].record;
   k.stride = sim->sorted[g].stride;
   return k;
@@ -43,6 +48,33 @@ static double slip_velocity(const packing *k, int d, long s, long i)
   return W > 0 ? 2 * v - k->wall_sum[SPH_WALL_V + d][s] / W : v;
 }
 
+/* The temperature that conduction sees: 2 T - <T_fluid>, so that T is that of the surface. */
+static double temperature(const packing *k, long s, long i)
+{
+  if (!k->wall_sum) return k->view.T ? k->view.T[i] : 0;
+  double W = k->wall_sum[SPH_WALL_W][s];
+  return W > 0 && k->wall_T > 0 ? 2 * k->wall_T - k->wall_sum[SPH_WALL_T][s] / W : 0;
+}
+
+/* What only some sets of terms read. */
+static inline void pack_more(const packing *k, int dim, long s, long i, double *record)
+{
+  const sph_view *view = &k->view;
+  const unsigned terms = k->sim->loop_terms;
+  for (int d = 0; d < dim; d++)
+    record[slot_extra(dim) + d] = k->wall_sum ? slip_velocity(k, d, s, i) : 0;
+  if (terms & SPH_THERMAL) {
+    record[slot_u(dim)] = view->u ? view->u[i] : 0;
+    record[slot_T(dim)] = temperature(k, s, i);
+  }
+  if (k->phi) {
+    record[slot_phi(dim)] = k->phi[i];
+    record[slot_p(dim)] *= k->phi[i];
+  }
+  for (int q = 0; q < k->sim->terms.scalars; q++)
+    record[slot_scalar(dim) + q] = view->s[q] ? view->s[q][i] : 0;
+}
+
 /* One record, at sorted place s: see fluid_pair.h. */
 static inline void pack(const packing *k, int dim, long s)
 {
@@ -58,10 +90,7 @@ static inline void pack(const packing *k, int dim, long s)
   record[slot_p(dim)] = k->sim->loop_terms & SPH_FORM_C2 ? p : p * inverse_rho * inverse_rho;
   record[slot_c(dim)] = view->c[i];
   record[slot_V(dim)] = view->m[i] * inverse_rho;
-  if (k->stride <= slot_extra(dim)) return;
-  for (int d = 0; d < dim; d++)
-    record[slot_extra(dim) + d] = k->wall_sum ? slip_velocity(k, d, s, i) : 0;
-  if (k->sim->loop_terms & SPH_THERMAL) record[slot_u(dim)] = view->u ? view->u[i] : 0;
+  if (k->stride > slot_extra(dim)) pack_more(k, dim, s, i, record);
 }
 
 static void pack_range(const packing *k, long begin, long end)
@@ -100,9 +129,15 @@ void sph_sim_pairs_pack(sph_evaluation *e, int walls)
 
 void sph_sim_pairs_pack_positions(const sph_evaluation *e, int g)
 {
+  const sph_sim *sim = e->sim;
   const packing k = packing_of(e, g);
-  for (long s = 0; s < e->view[g].n; s++)
-    for (int d = 0; d < e->sim->dim; d++) k.record[s * k.stride + d] = position(&k, d, k.order[s]);
+  const int wall = sim->group[g]->wall;
+  const double wall_mass = sim->group[g]->rho0 * sim->wall_volume;
+  for (long s = 0; s < e->view[g].n; s++) {
+    const long i = k.order[s];
+    for (int d = 0; d < sim->dim; d++) k.record[s * k.stride + d] = position(&k, d, i);
+    k.record[s * k.stride + slot_V(sim->dim)] = wall ? wall_mass : k.view.m[i];
+  }
   pack_tail(&e->sim->sorted[g], e->view[g].n);
 }
 
@@ -131,51 +166,38 @@ void sph_sim_pairs_loop(sph_sim *sim, sph_pair_function *loop, int target, int s
     loop(&task, c * BLOCKS, c + 1 < chunks ? (c + 1) * BLOCKS : list.blocks);
 }
 
-int sph_sim_pairs_same_fluid(const sph_group *target, const sph_group *source)
-{
-  return source->wall || (source->eos.rho0 == target->eos.rho0 && source->eos.c0 == target->eos.c0);
-}
-
-/* Terms of the interaction fluid <- source. */
-static unsigned interaction_terms(const sph_sim *sim, const sph_group *target,
-                                  const sph_group *source)
-{
-  unsigned terms = sim->loop_terms;
-  if (!sph_sim_pairs_same_fluid(target, source)) terms &= ~(unsigned)(SPH_MOLTENI | SPH_ANTUONO);
-  if (!source->wall) return terms;
-  terms &= ~(unsigned)SPH_CONDUCTIVITY; /* walls are adiabatic */
-  if (!source->boundary.no_slip) terms &= ~(unsigned)SPH_ARTIFICIAL;
-  return terms | SPH_WALL;
-}
-
 /* Adds the sums at sorted place s, scaled, to the rates of particle i. */
 static void add_rates(const sph_sim *sim, const sph_group *group, const sph_view *view, long s,
                       long i)
 {
-  double *const *sum = sim->sorted[group->index].sum;
-  double rho = view->rho[i], compression = sim->F_scale * sum[SPH_SUM_COMPRESSION][s];
-  if (sim->loop_terms & SPH_FORM_C2) compression *= rho;
+  const sph_sorted *sorted = &sim->sorted[group->index];
+  double *const *sum = sorted->sum;
+  double compression = sim->F_scale * sum[SPH_SUM_COMPRESSION][s];
+  if (sim->loop_terms & SPH_FORM_C2) compression *= view->rho[i];
+  if (sorted->phi) compression *= sorted->phi[i];
   for (int d = 0; d < sim->dim; d++) view->dv[d][i] += sim->F_scale * sum[SPH_SUM_A + d][s];
-  double diffusion = sim->terms.delta * sim->h * group->eos.c0 * sim->F_scale;
-  if (sim->loop_terms & SPH_CONTINUITY) view->drho[i] += compression;
-  if (sim->loop_terms & (SPH_MOLTENI | SPH_ANTUONO))
-    view->drho[i] += diffusion * sum[SPH_SUM_DIFFUSION][s];
+  if (view->drho) {
+    double diffusion = sim->terms.delta * sim->h * group->eos.c0 * sim->F_scale;
+    if (sim->terms.bits & SPH_CONTINUITY) view->drho[i] += compression;
+    if (sim->loop_terms & SPH_DIFFUSION) view->drho[i] += diffusion * sum[SPH_SUM_DIFFUSION][s];
+    if (sim->tile_terms) view->drho[i] += sim->F_scale * sum[SPH_SUM_DENSITY][s];
+  }
+  if (sim->loop_terms & SPH_XSPH)
+    for (int d = 0; d < sim->dim; d++) view->dx[d][i] += sim->W_scale * sum[SPH_SUM_DRIFT + d][s];
+  for (int q = 0; q < group->scalars && sim->tile_terms; q++)
+    view->ds[q][i] += sim->F_scale * sum[SPH_SUM_SCALAR + q][s];
   if (!view->du) return;
-  view->du[i] += sim->F_scale * sum[SPH_SUM_HEAT][s];
-  if (sim->loop_terms & SPH_PRESSURE_FORCE) view->du[i] += view->p[i] / (rho * rho) * compression;
+  double heat = view->du[i] + sim->F_scale * sum[SPH_SUM_HEAT][s];
+  if (!(sim->loop_terms & SPH_PRESSURE_FORCE)) compression = 0;
+  view->du[i] = sph_sim_energy_rate(group, view, i, heat, compression);
 }
 
 static void add_group(sph_evaluation *e, int g)
 {
   sph_sim *sim = e->sim;
   const int *order = sph_neighbors_order(sim->neighbors, g);
-  sph_sim_pairs_clear(sim, g, SPH_FLUID_SUMS);
-  for (int s = 0; s < sim->groups; s++) {
-    fluid_constants constants = sim->constants;
-    constants.terms = interaction_terms(sim, sim->group[g], sim->group[s]);
-    sph_sim_pairs_loop(sim, sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, constants.terms),
-                       g, s, &constants);
-  }
+  sph_sim_pairs_clear(sim, g, sim->fluid_sums);
+  for (int s = 0; s < sim->groups; s++) sph_sim_interaction_add(e, g, s);
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (e->view[g].n > PARALLEL_MIN)
   for (long s = 0; s < e->view[g].n; s++) add_rates(sim, sim->group[g], &e->view[g], s, order[s]);
 }

@@ -4,11 +4,13 @@
 #include <string.h>
 
 #include "cpu.h"
-#include "fluid_loops.h"
+#include "gradient_pair.h"
 #include "memory.h"
+#include "sim_energy.h"
 #include "sim_rhs.h"
 #include "sim_weights.h"
 #include "sundials.h"
+#include "wall_pair.h"
 
 /* Does every group have what it needs? */
 static int check_groups(sph_sim *sim)
@@ -28,11 +30,11 @@ static int check_groups(sph_sim *sim)
     if (!group->wall && !group->has_eos)
       return sph_sim_fail(sim, SPH_ERR_STATE,
                           "group %s has no equation of state: sph_group_set_eos", group->name);
-    if (!group->wall && group->eos.thermal != fluid->eos.thermal)
-      return sph_sim_fail(
-          sim, SPH_ERR_STATE,
-          "groups %s and %s: all fluids or none must have a thermal equation of state", fluid->name,
-          group->name);
+    if (!group->wall && (sph_group_data_energy(group) < 0) != (sph_group_data_energy(fluid) < 0))
+      return sph_sim_fail(sim, SPH_ERR_STATE,
+                          "groups %s and %s: all fluids or none must have an energy "
+                          "(sph_group_set_energy)",
+                          fluid->name, group->name);
     if (group->wall && !group->has_boundary)
       return sph_sim_fail(sim, SPH_ERR_STATE,
                           "wall %s has no boundary model: sph_group_set_boundary", group->name);
@@ -71,26 +73,69 @@ static int check_values(sph_sim *sim)
 }
 
 /* Would a term do nothing?  It is more likely to be meant otherwise. */
+static int check_heat(sph_sim *sim, const sph_group *group)
+{
+  const unsigned bits = sim->terms.bits;
+  int energy = sph_group_data_energy(group) >= 0;
+  if ((bits & SPH_CONDUCTIVITY) && !group->eos.thermal)
+    return sph_sim_fail(
+        sim, SPH_ERR_ARGUMENT,
+        "conductivity-artificial acts on internal energy, which %s with equation of state "
+        "%s has not: leave the term out",
+        group->name, group->eos.name);
+  if ((bits & SPH_CONDUCTION) && !(energy && group->eos.c_v > 0))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "conduction needs a temperature, which %s has not: give it %s", group->name,
+                        energy ? "a specific heat (eos.c_v)"
+                               : "an energy (sph_group_set_energy) and a specific heat (eos.c_v)");
+  if (sim->terms.heats && !energy)
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "heat-source heats an energy, which %s has not: sph_group_set_energy",
+                        group->name);
+  return SPH_OK;
+}
+
+/* x of Fourtakas' series, at most: gamma |g| H/c0^2. */
+static int check_fourtakas(sph_sim *sim, const sph_group *group)
+{
+  const sph_eos *eos = &group->eos;
+  double g2 = 0;
+  for (int d = 0; d < sim->dim; d++) g2 += sim->terms.g[d] * sim->terms.g[d];
+  double x = eos->gamma * sqrt(g2) * sim->H / (eos->c0 * eos->c0);
+  if (!eos->thermal && eos->gamma >= 1 && x < 0.1) return SPH_OK;
+  return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                      "delta fourtakas needs a liquid like tait, linear or murnaghan whose density "
+                      "differs little over a support; %s with equation of state %s has gamma g "
+                      "H/c0^2 = %g, right is below 0.1",
+                      group->name, eos->name, x);
+}
+
 static int check_terms(sph_sim *sim)
 {
-  const unsigned diffusion = SPH_MOLTENI | SPH_ANTUONO;
-  for (int g = 0; g < sim->groups; g++) {
+  double viscosity = 0, conductivity = 0;
+  int status = SPH_OK;
+  for (int g = 0; !status && g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
     if (group->wall) continue;
-    if ((sim->terms.bits & SPH_CONDUCTIVITY) && !group->eos.thermal)
-      return sph_sim_fail(
-          sim, SPH_ERR_ARGUMENT,
-          "conductivity-artificial acts on internal energy, which %s with equation of state "
-          "%s has not: leave the term out",
-          group->name, group->eos.name);
-    if ((sim->terms.bits & diffusion) && sim->terms.delta > 0 && !(group->eos.c0 > 0))
-      return sph_sim_fail(
+    status = check_heat(sim, group);
+    if (!status && (sim->terms.bits & SPH_DIFFUSION) && sim->terms.delta > 0 &&
+        !(group->eos.c0 > 0))
+      status = sph_sim_fail(
           sim, SPH_ERR_ARGUMENT,
           "delta needs a reference sound speed, which equation of state %s of %s has not "
           "(c0 = %g): leave the term out or set eos.c0",
           group->eos.name, group->name, group->eos.c0);
+    if (!status && (sim->terms.bits & SPH_FOURTAKAS)) status = check_fourtakas(sim, group);
+    viscosity = fmax(viscosity, group->viscosity);
+    conductivity = fmax(conductivity, group->conductivity);
   }
-  return SPH_OK;
+  if (!status && (sim->terms.bits & (SPH_MORRIS | SPH_MCG)) && viscosity == 0)
+    status = sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "viscosity-laminar: no fluid has a viscosity: sph_group_set_viscosity");
+  if (!status && (sim->terms.bits & SPH_CONDUCTION) && conductivity == 0)
+    status = sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "conduction: no fluid has a conductivity: sph_group_set_conductivity");
+  return status;
 }
 
 /* Positions may have been written since walls were added: their motion starts there. */
@@ -102,24 +147,43 @@ static void start_walls(sph_sim *sim)
              (size_t)sim->group[g]->n * sizeof(double));
 }
 
-/* The loop over fluid pairs: its terms and constants (fluid_pair.h). */
-static void make_constants(sph_sim *sim)
+/* The loops over pairs: their terms and what these need. */
+static int make_terms(sph_sim *sim)
 {
   const sph_term_set *terms = &sim->terms;
-  int thermal = 0;
-  for (int g = 0; g < sim->groups; g++) thermal |= sim->group[g]->eos.thermal;
-  sim->loop_terms = terms->bits;
-  if (thermal) sim->loop_terms |= SPH_THERMAL;
-  if (!terms->form_c1) sim->loop_terms |= SPH_FORM_C2;
-  if (terms->alpha == 0 && terms->beta == 0) sim->loop_terms &= ~(unsigned)SPH_ARTIFICIAL;
-  if (terms->delta == 0) sim->loop_terms &= ~(unsigned)(SPH_MOLTENI | SPH_ANTUONO);
-  sim->constants = (fluid_constants){.terms = sim->loop_terms,
-                                     .inverse_h = 1 / sim->h,
-                                     .eta2 = 0.01 * sim->h * sim->h,
-                                     .viscosity_1 = -terms->alpha * sim->h,
-                                     .viscosity_2 = 2 * terms->beta * sim->h * sim->h,
-                                     .alpha_u = terms->alpha_u};
-  sim->F_scale = sph_kernel_sigma(sim->kernel, sim->dim) / pow(sim->h, sim->dim + 2);
+  unsigned bits = terms->bits;
+  for (int g = 0; g < sim->groups; g++)
+    if (sph_group_data_energy(sim->group[g]) >= 0) bits |= SPH_THERMAL;
+  if (terms->form_phi) bits |= SPH_FORM_PHI;
+  if (!terms->form_phi && !terms->form_c1) bits |= SPH_FORM_C2;
+  if (terms->summed && (bits & SPH_THERMAL)) bits |= SPH_CONTINUITY; /* for the work of pressure */
+  if (terms->alpha == 0 && terms->beta == 0) bits &= ~(unsigned)SPH_ARTIFICIAL;
+  if (terms->signal_alpha == 0) bits &= ~(unsigned)SPH_SIGNAL;
+  if (terms->epsilon == 0) bits &= ~(unsigned)SPH_XSPH;
+  if (terms->delta == 0) bits &= ~(unsigned)SPH_DIFFUSION;
+  sim->loop_terms = bits;
+  sim->constants = (fluid_constants){.terms = bits, .inverse_h = 1 / sim->h};
+  sim->W_scale = sph_kernel_sigma(sim->kernel, sim->dim) / pow(sim->h, sim->dim);
+  sim->F_scale = sim->W_scale / (sim->h * sim->h);
+  sim->needs_temperature = (bits & SPH_CONDUCTION) != 0;
+  int status = sph_sim_interaction_prepare(sim);
+  sim->fluid_sums = bits & SPH_XSPH ? SPH_FLUID_SUMS_ALL : SPH_FLUID_SUMS;
+  if (sim->tile_terms) sim->fluid_sums = SPH_SUM_SCALAR + terms->scalars;
+  return status;
+}
+
+/* What a group integrates. */
+static int start_groups(sph_sim *sim)
+{
+  int status = SPH_OK;
+  sph_sim_density_calibrate(sim);
+  for (int g = 0; !status && g < sim->groups; g++) {
+    sph_group *group = sim->group[g];
+    if (group->wall) continue;
+    group->summed = sim->terms.summed;
+    status = sph_sim_energy_start(group);
+  }
+  return status;
 }
 
 static int make_vectors(sph_sim *sim)
@@ -140,20 +204,31 @@ static int make_vectors(sph_sim *sim)
   return SPH_OK;
 }
 
+/* Sums of the loops over a group. */
+static int sums_of(const sph_sim *sim, const sph_group *group)
+{
+  int sums = group->wall ? SPH_WALL_SUMS : sim->fluid_sums;
+  if (!group->wall && (sim->loop_terms & SPH_ANTUONO))
+    sums = sums > gradient_sums(sim->dim) ? sums : gradient_sums(sim->dim);
+  return sums;
+}
+
 static int make_sorted(sph_sim *sim, int g)
 {
   sph_sorted *sorted = &sim->sorted[g];
   unsigned terms = sim->loop_terms;
   for (int k = 0; k < sim->groups; k++)
     if (sim->group[k]->wall) terms |= SPH_WALL;
-  sorted->stride = fluid_slots(sim->dim, terms);
+  /* Tiles read all slots up to the scalars; the others only those of their terms. */
+  sorted->stride = fluid_slots(sim->dim, terms, sim->tile_terms ? sim->terms.scalars : 0);
   sorted->room = sim->group[g]->capacity;
   sorted->record =
       SPH_NEW(double, sorted->room * sorted->stride + SPH_PAIR_SLOTS, "records", &sim->error);
-  for (int s = 0; s < SPH_PAIR_SUMS; s++)
+  for (int s = 0; s < sums_of(sim, sim->group[g]); s++)
     sorted->sum[s] = SPH_NEW(double, sorted->room, "pair sums", &sim->error);
   for (int d = 0; d < sim->dim; d++)
     sorted->built[d] = SPH_NEW(double, sorted->room, "positions of the lists", &sim->error);
+  if (terms & SPH_FORM_PHI) sorted->phi = SPH_NEW(double, sorted->room, "phi", &sim->error);
   return sim->error.status;
 }
 
@@ -178,10 +253,7 @@ static int limits(double t, N_Vector y, sph_step_limit *limit, void *ctx)
 {
   const sph_sim *sim = ctx;
   (void)t, (void)y;
-  for (int k = 0; k < SPH_BOUND_COUNT; k++) limit->dt[k] = INFINITY;
-  limit->dt[SPH_BOUND_CFL] = sim->limit_cfl;
-  limit->dt[SPH_BOUND_FORCE] = sim->limit_force;
-  limit->dt[SPH_BOUND_USER] = sim->limit_user;
+  memcpy(limit->dt, sim->limit, sizeof limit->dt);
   return SPH_OK;
 }
 
@@ -193,9 +265,11 @@ static int admissible(double t, N_Vector y, void *ctx)
   for (int g = 0; g < sim->groups; g++) {
     sph_view view = sph_group_data_view(sim->group[g], sph_nvector_data(y), NULL);
     for (long i = 0; !sim->group[g]->wall && i < view.n; i++) {
-      double size = view.rho[i] + (view.u ? view.u[i] : 0);
+      double size = view.rho[i] + (view.energy ? fabs(view.energy[i]) : 0);
+      int cold = sim->group[g]->eos.thermal && view.energy == view.u && !(view.u[i] > 0);
+      for (int q = 0; q < sim->terms.scalars; q++) size += fabs(view.s[q][i]);
       for (int d = 0; d < sim->dim; d++) size += fabs(view.x[d][i]) + fabs(view.v[d][i]);
-      if (!(view.rho[i] > 0) || (view.u && !(view.u[i] > 0)) || !(size < INFINITY))
+      if (!(view.rho[i] > 0) || cold || !(size < INFINITY))
         return sph_sim_admit_retry(sim, "%s: particle %ld left the admissible states: density %g",
                                    sim->group[g]->name, i, view.rho[i]);
     }
@@ -226,7 +300,8 @@ int sph_sim_prepare(sph_sim *sim)
   if (!status) status = check_values(sim);
   if (!status) status = check_terms(sim);
   if (!status) start_walls(sim);
-  if (!status) make_constants(sim);
+  if (!status) status = make_terms(sim);
+  if (!status) status = start_groups(sim);
   if (!status) status = make_vectors(sim);
   for (int g = 0; !status && g < sim->groups; g++) status = make_sorted(sim, g);
   if (!status) status = make_search(sim);
@@ -262,6 +337,7 @@ void sph_sim_prepare_undo(sph_sim *sim)
   sph_neighbors_free(sim->neighbors);
   for (int g = 0; g < sim->groups; g++) {
     sph_memory_free(sim->sorted[g].record);
+    sph_memory_free(sim->sorted[g].phi);
     for (int s = 0; s < SPH_PAIR_SUMS; s++) sph_memory_free(sim->sorted[g].sum[s]);
     for (int d = 0; d < 3; d++) sph_memory_free(sim->sorted[g].built[d]);
   }

@@ -17,6 +17,8 @@ static int phases(sph_evaluation *e)
   int status = sph_sim_walls_move(e);
   if (!status) status = sph_sim_lists_update(e); /* neighbors */
   if (!status) status = sph_comm_exchange(SPH_COMM_STATE);
+  if (!status) status = sph_sim_density(e); /* density */
+  if (!status) status = sph_comm_exchange(SPH_COMM_DENSITY);
   if (!status) status = sph_sim_material_eos(e); /* eos */
   if (!status) status = sph_sim_bodies_add(e);   /* bodies */
   if (!status) status = sph_sim_walls_fill(e);   /* walls */
@@ -45,6 +47,7 @@ int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y)
   views(&e, y, NULL);
   int status = sph_sim_walls_move(&e);
   if (!status && !sim->listed) status = sph_sim_lists_update(&e);
+  if (!status) status = sph_sim_density(&e);
   if (!status) status = sph_sim_material_eos(&e);
   if (!status) status = sph_sim_walls_fill(&e);
   return status;

@@ -16,6 +16,7 @@ typedef struct sph_evaluation {
 int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y);
 
 int sph_sim_lists_update(sph_evaluation *e);           /* neighbors */
+int sph_sim_density(sph_evaluation *e);                /* density */
 int sph_sim_material_eos(sph_evaluation *e);           /* eos */
 int sph_sim_bodies_add(sph_evaluation *e);             /* bodies: starts all rates */
 int sph_sim_walls_move(sph_evaluation *e);             /* walls: prescribed motion */
@@ -25,15 +26,30 @@ void sph_sim_pairs_pack(sph_evaluation *e, int walls); /* sorted copies of fluid
 int sph_sim_pairs_add(sph_evaluation *e);              /* pairs */
 int sph_sim_admit(sph_evaluation *e);                  /* admit */
 
+/* Positions, and masses in the slot of V. */
 void sph_sim_pairs_pack_positions(const sph_evaluation *e, int g);
-/* Does density diffuse between them?  Not between fluids of different reference density or sound
- * speed; with walls always. */
-int sph_sim_pairs_same_fluid(const sph_group *target, const sph_group *source);
 void sph_sim_pairs_clear(sph_sim *sim, int g, int sums);
 
 /* Runs one loop over all target blocks of (target <- source). */
 void sph_sim_pairs_loop(sph_sim *sim, sph_pair_function *loop, int target, int source,
                         const void *constants);
+
+/* phi of all fluids, or of all walls, for the row of that name. */
+void sph_sim_material_phi(sph_evaluation *e, int walls);
+/* What body terms and phi see of a group. */
+sph_particles sph_sim_bodies_particles(const sph_evaluation *e, int g);
+
+/* The pair terms of (target <- source), added to the sums of the target. */
+void sph_sim_interaction_add(sph_evaluation *e, int target, int source);
+fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_group *target,
+                                              const sph_group *source);
+/* Does density diffuse between them?  Not between fluids of different reference density or sound
+ * speed; with walls always. */
+int sph_sim_interaction_same_fluid(const sph_group *target, const sph_group *source);
+/* Which terms use tiles, and what these hold. */
+int sph_sim_interaction_prepare(sph_sim *sim);
+/* Before the run: masses that make the lattice sum the reference density. */
+void sph_sim_density_calibrate(sph_sim *sim);
 /* The simulation asks for a smaller step, for this reason. */
 int sph_sim_admit_retry(sph_sim *sim, const char *format, ...) SPH_PRINTF(2, 3);
 

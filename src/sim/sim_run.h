@@ -10,4 +10,7 @@ int sph_sim_run_step(sph_sim *sim, double t_stop);
 /* Closes all outputs: after a failure, or when the simulation ends. */
 void sph_sim_run_close(sph_sim *sim);
 
+/* A term brought a scalar along: room for it in a group, filled with its initial value. */
+void sph_group_scalars_added(sph_group *group);
+
 #endif

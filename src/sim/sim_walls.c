@@ -3,7 +3,8 @@
  *
  *   p_w = [sum p_f W + (g - a_w) . sum rho_f r_wf W]/sum W,
  *   rho_w from p_w by the inverse equation of state,  m_w = rho_w dx^d,
- *   v_w = 2 v_prescribed - sum v_f W/sum W in viscous terms (no slip).   No fluid near: p_w = 0. */
+ *   v_w = 2 v_prescribed - sum v_f W/sum W in viscous terms (no slip),
+ *   T_w = 2 T_prescribed - sum T_f W/sum W in conduction (isothermal).   No fluid near: p_w = 0. */
 #include <math.h>
 
 #include "sim_rhs.h"
@@ -53,7 +54,7 @@ static void fill(const sph_sim *sim, const sph_group *wall, const sph_view *view
   double unused;
   if (wall->boundary.no_slip) wall->eos.pressure(&wall->eos, 1, &rho, &u, &unused, &view->c[i]);
   view->rho[i] = rho;
-  view->m[i] = rho * sim->volume; /* it always fills its place on the lattice */
+  view->m[i] = rho * sim->wall_volume; /* it always fills its place on the lattice */
   view->p[i] = p;
 }
 
@@ -74,6 +75,7 @@ int sph_sim_walls_fill(sph_evaluation *e)
   sph_sim *sim = e->sim;
   sph_pair_function *loop =
       sph_wall_loop(sim->isa, sim->kernel_number, sim->dim, sim->loop_terms & SPH_THERMAL ? 1 : 0);
+  sph_sim_material_phi(e, 0);
   sph_sim_pairs_pack(e, 0);
   for (int g = 0; g < sim->groups; g++) {
     if (!sim->group[g]->wall) continue;
@@ -83,6 +85,7 @@ int sph_sim_walls_fill(sph_evaluation *e)
       if (!sim->group[f]->wall) sph_sim_pairs_loop(sim, loop, g, f, &sim->constants);
     finish(e, g);
   }
+  sph_sim_material_phi(e, 1);
   sph_sim_pairs_pack(e, 1);
   return SPH_OK;
 }

@@ -1,7 +1,8 @@
 /* Error weights: physical scales of each field of each group.
  *   x: h;  v: V = max(user's, sqrt(g height), 0.01 c0, |v| at the start);
- *   rho: rho0 (V/c0)^2;  u: V^2/2
- * and for a gas V = mean sound speed, rho0 = mean density. */
+ *   rho: rho0 (V/c0)^2;  u, e: V^2/2;  A: (gamma - 1) rho^(1-gamma) V^2/2;  T: V^2/(2 c_v)
+ * and for a gas V = mean sound speed, rho0 = mean density.  An energy that is carried along: the
+ * range of u at the start, if that is more.  Scalars: as their terms say. */
 #include "sim_weights.h"
 
 #include <math.h>
@@ -11,6 +12,16 @@ static double mean(const double *a, long n)
   double sum = 0;
   for (long i = 0; i < n; i++) sum += a[i];
   return n ? sum / (double)n : 0;
+}
+
+static double range(const double *a, long n)
+{
+  double low = INFINITY, high = -INFINITY;
+  for (long i = 0; i < n; i++) {
+    low = fmin(low, a[i]);
+    high = fmax(high, a[i]);
+  }
+  return n ? high - low : 0;
 }
 
 /* sqrt(|g| height): the extent of the fluid along g. */
@@ -50,7 +61,12 @@ void sph_sim_weights_scales(sph_sim *sim, int g, const sph_view *view)
   scale[SPH_POSITION] = sim->h;
   scale[SPH_VELOCITY] = V;
   scale[SPH_DENSITY] = rho * fmin(1, (V / c) * (V / c));
-  scale[SPH_ENERGY] = V * V / 2;
+  double u = V * V / 2, gamma = group->eos.gamma;
+  if (view->u && !group->eos.thermal) u = fmax(u, range(view->u, view->n));
+  scale[SPH_ENERGY] = scale[SPH_TOTAL_ENERGY] = u;
+  scale[SPH_ENTROPY] = (gamma - 1) * pow(rho, 1 - gamma) * u;
+  scale[SPH_TEMPERATURE] = u / group->eos.c_v;
+  for (int q = 0; q < group->scalars; q++) scale[SPH_SCALAR + q] = sim->terms.scalar[q].scale;
 }
 
 int sph_sim_weights(N_Vector y, N_Vector weight, void *ctx)

@@ -4,13 +4,48 @@
 
 #include "memory.h"
 
-int sph_group_data_components(int dim, int field) { return sph_field_get(field)->vector ? dim : 1; }
+int sph_group_data_components(int dim, int field)
+{
+  return field < SPH_SCALAR && sph_field_get(field)->vector ? dim : 1;
+}
+
+int sph_group_data_energy(const struct sph_group *group)
+{
+  static const int field[] = {[SPH_ENERGY_NONE] = -1,
+                              [SPH_ENERGY_U] = SPH_ENERGY,
+                              [SPH_ENERGY_TOTAL] = SPH_TOTAL_ENERGY,
+                              [SPH_ENERGY_ENTROPY] = SPH_ENTROPY,
+                              [SPH_ENERGY_TEMPERATURE] = SPH_TEMPERATURE};
+  if (group->wall || !group->has_eos) return -1;
+  if (group->energy == SPH_ENERGY_DEFAULT) return group->eos.thermal ? SPH_ENERGY : -1;
+  return field[group->energy];
+}
 
 int sph_group_data_integrated(const struct sph_group *group, int field)
 {
   if (group->wall) return 0;
-  if (field == SPH_ENERGY) return group->has_eos && group->eos.thermal;
+  if (field >= SPH_SCALAR) return field - SPH_SCALAR < group->scalars;
+  if (field >= SPH_ENERGY && field <= SPH_TEMPERATURE) return field == sph_group_data_energy(group);
+  if (field == SPH_DENSITY) return !group->summed;
   return sph_field_get(field)->integrated;
+}
+
+/* Fields that every group keeps from the start; the others get an array where they are needed. */
+static int always(const struct sph_group *group, int field)
+{
+  if (field >= SPH_SCALAR) return !group->wall && field - SPH_SCALAR < group->scalars;
+  return field != SPH_TOTAL_ENERGY && field != SPH_ENTROPY && field != SPH_TEMPERATURE &&
+         field != SPH_ENTHALPY;
+}
+
+int sph_group_data_own(struct sph_group *group, int field, sph_error *error)
+{
+  for (int c = 0; c < sph_group_data_components(group->dim, field); c++) {
+    if (group->own[field][c] || group->offset[field][c] >= 0) continue;
+    group->own[field][c] = SPH_NEW(double, group->capacity, "a field", error);
+    if (!group->own[field][c]) return SPH_ERR_MEMORY;
+  }
+  return SPH_OK;
 }
 
 int sph_group_data_reserve(struct sph_group *group, long count, sph_error *error)
@@ -22,8 +57,9 @@ int sph_group_data_reserve(struct sph_group *group, long count, sph_error *error
       sph_memory_grow((void **)&group->id, old, capacity, sizeof(long), "particle numbers", error);
   for (int field = 0; field < SPH_FIELDS; field++)
     for (int c = 0; status == SPH_OK && c < sph_group_data_components(group->dim, field); c++)
-      status = sph_memory_grow((void **)&group->own[field][c], old, capacity, sizeof(double),
-                               sph_field_get(field)->name, error);
+      if (always(group, field))
+        status = sph_memory_grow((void **)&group->own[field][c], old, capacity, sizeof(double),
+                                 "a field", error);
   for (int d = 0; group->wall && status == SPH_OK && d < group->dim; d++)
     status = sph_memory_grow((void **)&group->start[d], old, capacity, sizeof(double),
                              "wall positions", error);
@@ -44,6 +80,12 @@ void sph_group_data_free(struct sph_group *group)
   sph_memory_free(group);
 }
 
+static int role_of(int field)
+{
+  if (field == SPH_POSITION) return SPH_ROLE_POSITION;
+  return field == SPH_VELOCITY ? SPH_ROLE_VELOCITY : SPH_ROLE_OTHER;
+}
+
 static void place(struct sph_group *group, sph_layout *layout, int field, int c, int role)
 {
   sph_segment *segment = &layout->segment[layout->segments++];
@@ -55,15 +97,11 @@ static void place(struct sph_group *group, sph_layout *layout, int field, int c,
 
 void sph_group_data_place(struct sph_group *group, sph_layout *layout)
 {
-  static const int role[SPH_FIELDS] = {[SPH_POSITION] = SPH_ROLE_POSITION,
-                                       [SPH_VELOCITY] = SPH_ROLE_VELOCITY,
-                                       [SPH_DENSITY] = SPH_ROLE_OTHER,
-                                       [SPH_ENERGY] = SPH_ROLE_OTHER};
   int position = layout->segments;
   for (int field = 0; field < SPH_FIELDS; field++) {
     if (!sph_group_data_integrated(group, field)) continue;
     for (int c = 0; c < sph_group_data_components(group->dim, field); c++)
-      place(group, layout, field, c, role[field]);
+      place(group, layout, field, c, role_of(field));
   }
   for (int d = 0; d < group->dim && layout->segments > position; d++)
     layout->segment[position + d].partner = position + group->dim + d;
@@ -102,12 +140,18 @@ sph_view sph_group_data_view(const struct sph_group *group, const double *y, dou
   }
   view.rho = sph_group_data_component(group, y, SPH_DENSITY, 0);
   view.drho = rate(group, ydot, SPH_DENSITY, 0);
-  if (group->offset[SPH_ENERGY][0] >= 0) {
-    view.u = sph_group_data_component(group, y, SPH_ENERGY, 0);
-    view.du = rate(group, ydot, SPH_ENERGY, 0);
-  }
   view.m = group->own[SPH_MASS][0];
   view.p = group->own[SPH_PRESSURE][0];
   view.c = group->own[SPH_SOUND_SPEED][0];
+  view.T = sph_group_data_component(group, y, SPH_TEMPERATURE, 0);
+  for (int k = 0; k < group->scalars; k++) {
+    view.s[k] = sph_group_data_component(group, y, SPH_SCALAR + k, 0);
+    view.ds[k] = rate(group, ydot, SPH_SCALAR + k, 0);
+  }
+  int energy = sph_group_data_energy(group);
+  if (energy < 0) return view;
+  view.u = sph_group_data_component(group, y, SPH_ENERGY, 0);
+  view.energy = sph_group_data_component(group, y, energy, 0);
+  view.du = rate(group, ydot, energy, 0);
   return view;
 }

@@ -5,12 +5,25 @@
 #include "sphode/boundary.h"
 #include "sphode/eos.h"
 #include "sphode/field.h"
+#include "sphode/term.h"
 
+/* Fields, then the scalars that terms bring along (sphode/term.h). */
 enum {
 #define X(id, name, symbol, unit, vector, integrated, saved) SPH_##id,
 #include "fields.def"
 #undef X
-  SPH_FIELDS
+  SPH_SCALAR,
+  SPH_FIELDS = SPH_SCALAR + SPH_SCALARS_MAX
+};
+
+/* Which energy a group integrates; the field of each: sph_group_data_energy. */
+enum sph_energy {
+  SPH_ENERGY_DEFAULT, /* u for a thermal equation of state, else none */
+  SPH_ENERGY_NONE,
+  SPH_ENERGY_U,
+  SPH_ENERGY_TOTAL,
+  SPH_ENERGY_ENTROPY,
+  SPH_ENERGY_TEMPERATURE
 };
 
 enum { SPH_NAME_MAX = 64 };
@@ -33,16 +46,29 @@ struct sph_group {
   int has_eos, has_boundary;
   double viscosity;    /* dynamic [Pa s] */
   double conductivity; /* of heat [W/(m K)] */
-  double rho0;         /* walls: density where no fluid tells it [kg/m^3] */
+  enum sph_energy energy;
+  int summed;  /* density is a sum over neighbours, not integrated */
+  int scalars; /* integrated besides: fields SPH_SCALAR, ... */
+  double rho0; /* walls: density where no fluid tells it [kg/m^3] */
 };
 
 /* All pointers of one evaluation: made at its start from the vectors at hand, never stored. */
 typedef struct sph_view {
   long n;
-  double *x[3], *v[3], *rho, *u, *m, *p, *c; /* u: NULL unless thermal */
-  double *dx[3], *dv[3], *drho, *du;         /* rates; NULL for walls and without ydot */
+  double *x[3], *v[3], *rho, *m, *p, *c;
+  double *u;      /* NULL unless the group has an energy */
+  double *energy; /* the one that is integrated: u itself or another; NULL without one */
+  double *T;      /* NULL where nobody needs it */
+  double *s[SPH_SCALARS_MAX];
+  /* Rates; NULL for walls, without ydot, and of what is not integrated.  du holds the heating until
+   * the phase pairs makes it the rate of `energy`. */
+  double *dx[3], *dv[3], *drho, *du, *ds[SPH_SCALARS_MAX];
 } sph_view;
 
+/* Field number of the energy that the group integrates, or -1. */
+int sph_group_data_energy(const struct sph_group *group);
+/* An array of its own for a field that has none yet, zero. */
+int sph_group_data_own(struct sph_group *group, int field, sph_error *error);
 /* Number of components of a field in dim dimensions. */
 int sph_group_data_components(int dim, int field);
 /* Room for `count` particles in all arrays of a group that has not been moved into the ODE

@@ -13,7 +13,7 @@ static int set_of(unsigned terms)
 {
   const fluid_constants constants = {.terms = terms},
                         *k = &constants; /* "any" matches itself, last */
-#define MATCH(kernel, dim, name, mask, slots) \
+#define MATCH(kernel, dim, name, mask, slots, sums) \
   if (terms == (mask)) return SPH_FLUID_SET_##name;
   SPH_FLUID_SETS(MATCH, , )
 #undef MATCH

@@ -1,37 +1,27 @@
 /* Instances of the fused loop, once per instruction set: the bodies of the active terms one after
  * another on the same pair, closed by one fluid_pair_forces. */
 #include "fluid_loops.h"
-
-#include "term_conductivity_artificial.h"
-#include "term_continuity.h"
-#include "term_delta.h"
-#include "term_pressure.h"
-#include "term_viscosity_artificial.h"
+#include "fluid_terms.h"
 
 BODY void fluid_pair(int dim, int kernel, unsigned terms, const fluid_constants *k,
                      const vec *slot_i, const vec *slot_j, vec *sum)
 {
   const particle i = fluid_particle(dim, terms, slot_i), j = fluid_particle(dim, terms, slot_j);
   pair p = fluid_pair_common(dim, kernel, terms, k, &i, &j);
-  if (terms & SPH_CONTINUITY) term_continuity(terms, &p, sum);
-  if (terms & SPH_PRESSURE_FORCE) term_pressure(terms, &p, &i, &j);
-  if (terms & SPH_ARTIFICIAL) term_viscosity_artificial(&p, k, &i, &j);
-  if (terms & SPH_CONDUCTIVITY) term_conductivity_artificial(terms, &p, k, &i, &j, sum);
-  if (terms & SPH_MOLTENI) term_delta_molteni(&p, &i, &j, sum);
-  if (terms & SPH_ANTUONO) term_delta_antuono(dim, terms, &p, &i, &j, sum);
+  fluid_terms(dim, kernel, terms, &p, k, &i, &j, sum);
   fluid_pair_forces(dim, terms, &p, sum);
 }
 
-#define FLUID(kernel, dim, set, mask, slots)                                           \
-  BODY void body_##kernel##_##dim##_##set(int d, const void *constants, const vec *i,  \
-                                          const vec *j, vec *sum)                      \
-  {                                                                                    \
-    const fluid_constants *k = constants;                                              \
-    fluid_pair(d, kernel, mask, k, i, j, sum);                                         \
-  }                                                                                    \
-  static void fluid_##kernel##_##dim##_##set(const sph_pair_task *t, long b, long e)   \
-  {                                                                                    \
-    sph_pair_loop(body_##kernel##_##dim##_##set, t, b, e, dim, slots, SPH_FLUID_SUMS); \
+#define FLUID(kernel, dim, set, mask, slots, sums)                                    \
+  BODY void body_##kernel##_##dim##_##set(int d, const void *constants, const vec *i, \
+                                          const vec *j, vec *sum)                     \
+  {                                                                                   \
+    const fluid_constants *k = constants;                                             \
+    fluid_pair(d, kernel, mask, k, i, j, sum);                                        \
+  }                                                                                   \
+  static void fluid_##kernel##_##dim##_##set(const sph_pair_task *t, long b, long e)  \
+  {                                                                                   \
+    sph_pair_loop(body_##kernel##_##dim##_##set, t, b, e, dim, slots, sums);          \
   }
 #define KERNEL(kernel)             \
   SPH_FLUID_SETS(FLUID, kernel, 1) \
@@ -39,7 +29,7 @@ BODY void fluid_pair(int dim, int kernel, unsigned terms, const fluid_constants 
   SPH_FLUID_SETS(FLUID, kernel, 3)
 SPH_KERNEL_LIST(KERNEL)
 
-#define NAME(kernel, dim, set, mask, slots) fluid_##kernel##_##dim##_##set,
+#define NAME(kernel, dim, set, mask, slots, sums) fluid_##kernel##_##dim##_##set,
 #define ROW(kernel)                              \
   [kernel] = {{SPH_FLUID_SETS(NAME, kernel, 1)}, \
               {SPH_FLUID_SETS(NAME, kernel, 2)}, \

@@ -8,18 +8,19 @@
 #define SPH_WATER (SPH_CONTINUITY | SPH_PRESSURE_FORCE | SPH_FORM_C2)
 
 /* Constant sets of terms with a loop of their own, looked up by exact mask; "any" reads it at run
- * time.
- * X(kernel, dim, name, mask, slots) */
-#define SPH_FLUID_SETS(X, kernel, dim)                                                    \
-  X(kernel, dim, molteni, SPH_WATER | SPH_ARTIFICIAL | SPH_MOLTENI, 2 * dim + 4)          \
-  X(kernel, dim, molteni_thermal, SPH_WATER | SPH_ARTIFICIAL | SPH_MOLTENI | SPH_THERMAL, \
-    3 * dim + 5)                                                                          \
-  X(kernel, dim, antuono, SPH_WATER | SPH_ARTIFICIAL | SPH_ANTUONO, 3 * dim + 4)          \
-  X(kernel, dim, antuono_wall, SPH_WATER | SPH_ANTUONO | SPH_WALL, 3 * dim + 4)           \
-  X(kernel, dim, any, k->terms, 3 * dim + 5)
+ * time, and so does "xsph", which has more sums.
+ * X(kernel, dim, name, mask, slots, sums) */
+#define SPH_FLUID_SETS(X, kernel, dim)                                                           \
+  X(kernel, dim, molteni, SPH_WATER | SPH_ARTIFICIAL | SPH_MOLTENI, 2 * dim + 4, SPH_FLUID_SUMS) \
+  X(kernel, dim, molteni_thermal, SPH_WATER | SPH_ARTIFICIAL | SPH_MOLTENI | SPH_THERMAL,        \
+    3 * dim + 6, SPH_FLUID_SUMS)                                                                 \
+  X(kernel, dim, antuono, SPH_WATER | SPH_ARTIFICIAL | SPH_ANTUONO, 3 * dim + 4, SPH_FLUID_SUMS) \
+  X(kernel, dim, antuono_wall, SPH_WATER | SPH_ANTUONO | SPH_WALL, 3 * dim + 4, SPH_FLUID_SUMS)  \
+  X(kernel, dim, any, k->terms & ~(unsigned)SPH_XSPH, 3 * dim + 7, SPH_FLUID_SUMS)               \
+  X(kernel, dim, xsph, k->terms, 3 * dim + 7, SPH_FLUID_SUMS_ALL)
 
 enum {
-#define SPH_FLUID_SET_ENUM(kernel, dim, name, mask, slots) SPH_FLUID_SET_##name,
+#define SPH_FLUID_SET_ENUM(kernel, dim, name, mask, slots, sums) SPH_FLUID_SET_##name,
   SPH_FLUID_SETS(SPH_FLUID_SET_ENUM, , )
 #undef SPH_FLUID_SET_ENUM
       SPH_FLUID_SET_COUNT

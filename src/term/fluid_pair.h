@@ -15,17 +15,27 @@
 enum {
   SPH_CONTINUITY = 1,
   SPH_PRESSURE_FORCE = 2,
-  SPH_FORM_C2 = 4, /* the row of continuity, pressure and heating: C2; without it C1 with S */
-  SPH_ARTIFICIAL = 8,
-  SPH_MOLTENI = 16,
-  SPH_ANTUONO = 32,
-  SPH_THERMAL = 64,
-  SPH_CONDUCTIVITY = 128,
-  SPH_WALL = 256 /* the source is a wall */
+  SPH_FORM_C2 = 4,  /* the row of continuity, pressure and heating is C2, */
+  SPH_FORM_PHI = 8, /* or that of phi; without both C1 with S */
+  SPH_ARTIFICIAL = 16,
+  SPH_SIGNAL = 32,
+  SPH_MORRIS = 64,
+  SPH_MCG = 128,
+  SPH_MOLTENI = 256,
+  SPH_ANTUONO = 512,
+  SPH_FOURTAKAS = 1024,
+  SPH_THERMAL = 2048, /* fluids have an energy */
+  SPH_CONDUCTIVITY = 4096,
+  SPH_CONDUCTION = 8192,
+  SPH_XSPH = 16384,
+  SPH_WALL = 32768,    /* the source is a wall, */
+  SPH_NO_SLIP = 65536, /* and viscous terms see it */
+  SPH_DIFFUSION = SPH_MOLTENI | SPH_ANTUONO | SPH_FOURTAKAS,
+  SPH_VISCOUS = SPH_ARTIFICIAL | SPH_SIGNAL | SPH_MORRIS | SPH_MCG
 };
 
-/* A record, in slots: x[dim] v[dim] rho p c V extra[dim] u.
- *   p: the pressure (C2) or p/rho^2 (S);
+/* A record, in slots: x[dim] v[dim] rho p c V extra[dim] u T phi scalars.
+ *   p: the pressure (C2), p/rho^2 (S) or phi p/rho^2;
  *   extra: <grad rho>^L of a fluid, the velocity that viscous terms see of a wall. */
 BODY int slot_v(int dim) { return dim; }
 BODY int slot_rho(int dim) { return 2 * dim; }
@@ -34,34 +44,60 @@ BODY int slot_c(int dim) { return 2 * dim + 2; }
 BODY int slot_V(int dim) { return 2 * dim + 3; }
 BODY int slot_extra(int dim) { return 2 * dim + 4; }
 BODY int slot_u(int dim) { return 3 * dim + 4; }
+BODY int slot_T(int dim) { return 3 * dim + 5; }
+BODY int slot_phi(int dim) { return 3 * dim + 6; }
+BODY int slot_scalar(int dim) { return 3 * dim + 7; }
 /* Slots of a record: as few as the terms read. */
-BODY int fluid_slots(int dim, unsigned terms)
+BODY int fluid_slots(int dim, unsigned terms, int scalars)
 {
-  if (terms & SPH_THERMAL) return 3 * dim + 5;
+  if (scalars) return slot_scalar(dim) + scalars;
+  if (terms & SPH_FORM_PHI) return slot_phi(dim) + 1;
+  if (terms & SPH_THERMAL) return slot_T(dim) + 1;
   return terms & (SPH_ANTUONO | SPH_WALL) ? 3 * dim + 4 : 2 * dim + 4;
 }
 
-/* What the pair sums of a fluid particle are; rates follow in fluid_rates.c. */
-enum { SPH_SUM_A = 0, SPH_SUM_COMPRESSION = 3, SPH_SUM_DIFFUSION, SPH_SUM_HEAT, SPH_FLUID_SUMS };
+/* What the pair sums of a fluid particle are; rates follow in sim_pairs.c.  The last ones only for
+ * XSPH; behind them the scalars of tiles. */
+enum {
+  SPH_SUM_A = 0,
+  SPH_SUM_COMPRESSION = 3,
+  SPH_SUM_DIFFUSION,
+  SPH_SUM_HEAT,
+  SPH_SUM_DRIFT,
+  SPH_FLUID_SUMS = SPH_SUM_DRIFT,
+  SPH_FLUID_SUMS_ALL = SPH_SUM_DRIFT + 3
+};
 
+enum { SPH_FOURTAKAS_TERMS = 8 }; /* of the series of its hydrostatic density */
+
+/* Of one interaction (target group, source group). */
 typedef struct fluid_constants {
   unsigned terms;
   double inverse_h;
-  double eta2;                     /* 0.01 h^2 [m^2] */
-  double viscosity_1, viscosity_2; /* -alpha h [m], 2 beta h^2 [m^2] */
-  double alpha_u;                  /* artificial conductivity */
+  double eta2;                        /* 0.01 h^2 [m^2] */
+  double viscosity_1, viscosity_2;    /* -alpha h [m], 2 beta h^2 [m^2] */
+  double signal_1, signal_2;          /* -alpha, beta of the signal velocity */
+  double laminar;                     /* Morris: eta_i + eta_j; MCG: 4 (d + 2) eta_i eta_j/(eta_i +
+                                      eta_j) [Pa s] */
+  double conduction;                  /* 4 kappa_i kappa_j/(kappa_i + kappa_j) [W/(m K)] */
+  double alpha_u;                     /* artificial conductivity */
+  double epsilon;                     /* XSPH */
+  double rho0;                        /* Fourtakas: reference density [kg/m^3], */
+  double column[3];                   /* -gamma g/c0^2 [1/m], */
+  double series[SPH_FOURTAKAS_TERMS]; /* (1/gamma - k)/(k + 1) */
 } fluid_constants;
 
 typedef struct particle {
-  vec x[3], v[3], rho, p, c, V, extra[3], u;
+  vec x[3], v[3], rho, p, c, V, extra[3], u, T, phi;
 } particle;
 
 typedef struct pair {
-  vec r[3], r2, distance, rv; /* r.v */
-  vec rv_viscous;             /* r.v as viscous terms see it: another one at no-slip walls */
-  vec F, VF, mF;              /* F, V_j F, m_j F */
-  vec push;                   /* pressure acceleration of i so far: push * r */
-  vec along_r;                /* dissipative acceleration of i so far: along_r * r */
+  vec r[3], r2, distance, rv;   /* r.v */
+  vec v_viscous[3], rv_viscous; /* v, r.v as viscous terms see them: others at no-slip walls */
+  vec F, VF, mF;                /* F, V_j F, m_j F */
+  vec push;                     /* pressure acceleration of i so far: push * r */
+  vec along_r,
+      along_v; /* dissipative acceleration of i so far: along_r * r + along_v * v_viscous */
 } pair;
 
 BODY particle fluid_particle(int dim, unsigned terms, const vec *slot)
@@ -76,8 +112,20 @@ BODY particle fluid_particle(int dim, unsigned terms, const vec *slot)
   a.p = slot[slot_p(dim)];
   a.c = slot[slot_c(dim)];
   a.V = slot[slot_V(dim)];
-  if (terms & SPH_THERMAL) a.u = slot[slot_u(dim)];
+  if (terms & SPH_THERMAL) {
+    a.u = slot[slot_u(dim)];
+    a.T = slot[slot_T(dim)];
+  }
+  if (terms & SPH_FORM_PHI) a.phi = slot[slot_phi(dim)];
   return a;
+}
+
+/* The pressure, whatever the row keeps in its slot. */
+BODY vec fluid_pressure(unsigned terms, const particle *a)
+{
+  if (terms & SPH_FORM_C2) return a->p;
+  vec p = a->p * a->rho * a->rho;
+  return terms & SPH_FORM_PHI ? p / a->phi : p;
 }
 
 BODY vec fluid_dot(int dim, const vec *a, const vec *b)
@@ -87,6 +135,9 @@ BODY vec fluid_dot(int dim, const vec *a, const vec *b)
   return sum;
 }
 
+/* At least this: a particle with itself divides zero by it. */
+BODY vec fluid_apart(vec a) { return v_max(a, v_set(1e-300)); }
+
 BODY pair fluid_pair_common(int dim, int kernel, unsigned terms, const fluid_constants *k,
                             const particle *i, const particle *j)
 {
@@ -94,20 +145,26 @@ BODY pair fluid_pair_common(int dim, int kernel, unsigned terms, const fluid_con
   vec v[3];
   for (int d = 0; d < dim; d++) {
     p.r[d] = i->x[d] - j->x[d];
-    v[d] = i->v[d] - j->v[d];
+    p.v_viscous[d] = v[d] = i->v[d] - j->v[d];
   }
   p.r2 = fluid_dot(dim, p.r, p.r);
   p.rv = p.rv_viscous = fluid_dot(dim, p.r, v);
-  if ((terms & SPH_WALL) && (terms & SPH_ARTIFICIAL)) {
-    for (int d = 0; d < dim; d++) v[d] = i->v[d] - j->extra[d];
-    p.rv_viscous = fluid_dot(dim, p.r, v);
+  if ((terms & SPH_NO_SLIP) && (terms & SPH_VISCOUS)) {
+    for (int d = 0; d < dim; d++) p.v_viscous[d] = i->v[d] - j->extra[d];
+    p.rv_viscous = fluid_dot(dim, p.r, p.v_viscous);
   }
   p.distance = v_sqrt(p.r2);
   p.F = kernel_shape_f(kernel, dim, p.distance * k->inverse_h);
   p.VF = p.F * j->V;
   p.mF = p.VF * j->rho;
-  p.push = p.along_r = v_set(0);
+  p.push = p.along_r = p.along_v = v_set(0);
   return p;
+}
+
+/* r^2/(r^2 + eta^2) for a kernel whose F is singular, else 1. */
+BODY vec fluid_regular(int kernel, const fluid_constants *k, const pair *p)
+{
+  return kernel_shape_singular(kernel) ? p->r2 / (p->r2 + k->eta2) : v_set(1);
 }
 
 /* Closes a pair: forces are summed, and the dissipative ones heat both ends with half of their
@@ -115,7 +172,12 @@ BODY pair fluid_pair_common(int dim, int kernel, unsigned terms, const fluid_con
 BODY void fluid_pair_forces(int dim, unsigned terms, const pair *p, vec *sum)
 {
   for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += (p->push + p->along_r) * p->r[d];
-  if (terms & SPH_THERMAL) sum[SPH_SUM_HEAT] -= 0.5 * p->along_r * p->rv_viscous;
+  if (terms & SPH_MORRIS)
+    for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += p->along_v * p->v_viscous[d];
+  if (!(terms & SPH_THERMAL)) return;
+  vec work = p->along_r * p->rv_viscous;
+  if (terms & SPH_MORRIS) work += p->along_v * fluid_dot(dim, p->v_viscous, p->v_viscous);
+  sum[SPH_SUM_HEAT] -= 0.5 * work;
 }
 
 #endif

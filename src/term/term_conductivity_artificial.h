@@ -11,13 +11,9 @@
 BODY void term_conductivity_artificial(unsigned terms, const pair *p, const fluid_constants *k,
                                        const particle *i, const particle *j, vec *sum)
 {
-  vec p_i = i->p, p_j = j->p;
-  if (!(terms & SPH_FORM_C2)) {
-    p_i *= i->rho * i->rho;
-    p_j *= j->rho * j->rho;
-  }
   vec inverse_rho = 2 / (i->rho + j->rho);
-  vec v_sig = v_sqrt(v_abs(p_i - p_j) * inverse_rho);
+  vec jump = v_abs(fluid_pressure(terms, i) - fluid_pressure(terms, j));
+  vec v_sig = v_sqrt(jump * inverse_rho);
   sum[SPH_SUM_HEAT] += p->mF * inverse_rho * k->alpha_u * v_sig * (i->u - j->u) * p->distance;
 }
 

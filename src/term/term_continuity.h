@@ -2,18 +2,21 @@
  *
  *   C2:  d rho_i/dt = rho_i sum_j V_j v_ij . grad_i W_ij
  *   C1:  d rho_i/dt =       sum_j m_j v_ij . grad_i W_ij
+ *   phi: d rho_i/dt = phi_i sum_j m_j/phi_j v_ij . grad_i W_ij,  any phi > 0
  *
  * Exact time derivative of the summation density (C1); better across jumps of density (C2).  The
- * sum without rho_i also gives the heating by compression, du_i = p_i/rho_i^2 d rho_i/dt: partner
+ * sum without its factor also gives the heating by compression, du_i = p_i/rho_i^2 d rho_i/dt: partner
  * of the pressure force of the same row, so that sum m (v^2/2 + u) is conserved and the entropy of
  * each particle too. */
 #ifndef SPH_TERM_CONTINUITY_H
 #define SPH_TERM_CONTINUITY_H
 #include "fluid_pair.h"
 
-BODY void term_continuity(unsigned terms, const pair *p, vec *sum)
+BODY void term_continuity(unsigned terms, const pair *p, const particle *j, vec *sum)
 {
-  sum[SPH_SUM_COMPRESSION] += (terms & SPH_FORM_C2 ? p->VF : p->mF) * p->rv;
+  vec weight = terms & SPH_FORM_C2 ? p->VF : p->mF;
+  if (terms & SPH_FORM_PHI) weight /= j->phi;
+  sum[SPH_SUM_COMPRESSION] += weight * p->rv;
 }
 
 #endif

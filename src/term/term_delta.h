@@ -4,10 +4,14 @@
  *   Molteni & Colagrossi (2009):  psi_ij = 2 (rho_j - rho_i) (r_j - r_i)/r^2
  *   Antuono et al. (2010):        psi_ij = 2 (rho_j - rho_i) (r_j - r_i)/r^2
  *                                          - (<grad rho>^L_i + <grad rho>^L_j)
+ *   Fourtakas et al. (2019):      psi_ij = 2 (rho_j - rho_i - rho^H_ij) (r_j - r_i)/r^2,
+ *     rho^H_ij = rho0 [(1 + x)^(1/gamma) - 1],  x = rho0 |g| z_ij/B = -gamma g.r_ij/c0^2
  *
+ * rho^H is the difference of density of a column at rest, B = rho0 c0^2/gamma, z up; its power is
+ * summed as a series, exact to rounding as long as |x| < 0.1 within the support (checked).
  * sum V D = 0; Antuono's vanishes for a linear density, also at free surfaces.  A wall has no
  * gradient of its own: it mirrors that of i.  The factor delta h c0 is applied to the sum
- * (fluid_rates.c). */
+ * (sim_pairs.c). */
 #ifndef SPH_TERM_DELTA_H
 #define SPH_TERM_DELTA_H
 #include "fluid_pair.h"
@@ -15,6 +19,16 @@
 BODY void term_delta_molteni(const pair *p, const particle *i, const particle *j, vec *sum)
 {
   sum[SPH_SUM_DIFFUSION] += 2 * (i->rho - j->rho) * p->VF;
+}
+
+BODY void term_delta_fourtakas(int dim, const pair *p, const fluid_constants *k, const particle *i,
+                               const particle *j, vec *sum)
+{
+  vec x = k->column[0] * p->r[0], series = v_set(1);
+  for (int d = 1; d < dim; d++) x += k->column[d] * p->r[d];
+  for (int n = SPH_FOURTAKAS_TERMS - 1; n > 0; n--) series = 1 + k->series[n] * x * series;
+  vec hydrostatic = k->rho0 * k->series[0] * x * series;
+  sum[SPH_SUM_DIFFUSION] += 2 * (i->rho - j->rho + hydrostatic) * p->VF;
 }
 
 BODY void term_delta_antuono(int dim, unsigned terms, const pair *p, const particle *i,

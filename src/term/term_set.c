@@ -26,10 +26,45 @@ static int add_form(sph_term_set *set, unsigned bit, const sph_term *term, const
     set->form_c2 |= bit;
   else if (!strcmp(term->form, other))
     set->form_c1 |= bit;
+  else if (!strcmp(term->form, "phi"))
+    set->form_phi |= bit;
   else
-    return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: form \"%s\"; known: c2, %s", term->name,
-                         term->form, other);
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: form \"%s\"; known: c2, %s, phi",
+                         term->name, term->form, other);
   return claim(set, bit, term->name, error);
+}
+
+static int is_finite(const sph_term *term, const char *name, double value, sph_error *error)
+{
+  if (isfinite(value)) return SPH_OK;
+  return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: %s = %g is not finite", term->name, name,
+                       value);
+}
+
+static int add_continuity(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  int status = is_finite(term, "exponent", term->exponent, error);
+  if (!status) status = add_form(set, SPH_CONTINUITY, term, "c1", error);
+  if (!status && set->summed)
+    status = sph_error_set(error, SPH_ERR_ARGUMENT, "term continuity: density is summed already");
+  if (!status && set->form_phi & SPH_CONTINUITY) {
+    set->phi = *term;
+    set->phi.name = "continuity";
+    set->phi.form = "phi";
+  }
+  return status;
+}
+
+/* Its pressure force is that of the row C1, S. */
+static int add_summation(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  if (set->summed || (set->bits & SPH_CONTINUITY))
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "term summation: density is already that of %s",
+                         set->summed ? "summation" : "continuity");
+  set->summed = 1;
+  set->calibrate = term->calibrate != 0;
+  set->form_c1 |= SPH_CONTINUITY;
+  return SPH_OK;
 }
 
 static int add_viscosity(sph_term_set *set, const sph_term *term, sph_error *error)
@@ -50,17 +85,60 @@ static int add_conductivity(sph_term_set *set, const sph_term *term, sph_error *
   return status;
 }
 
+static int add_signal(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  int status = not_below_zero(term->name, "alpha", term->alpha, error);
+  if (!status) status = not_below_zero(term->name, "beta", term->beta, error);
+  if (!status) status = claim(set, SPH_SIGNAL, term->name, error);
+  set->signal_alpha = term->alpha;
+  set->signal_beta = term->beta;
+  return status;
+}
+
+static int add_laminar(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  const char *form = term->form ? term->form : "morris";
+  unsigned bit = !strcmp(form, "morris") ? SPH_MORRIS : !strcmp(form, "mcg") ? SPH_MCG : 0;
+  if (!bit)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term viscosity-laminar: form \"%s\"; known: morris, mcg", form);
+  if (set->bits & (SPH_MORRIS | SPH_MCG))
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "term viscosity-laminar: added twice");
+  return claim(set, bit, term->name, error);
+}
+
+static int add_xsph(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  if (!(term->epsilon >= 0 && term->epsilon <= 1))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term xsph: epsilon = %g; right is 0 to 1, usually up to 0.5",
+                         term->epsilon);
+  set->epsilon = term->epsilon;
+  return claim(set, SPH_XSPH, term->name, error);
+}
+
+static int add_pressure(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  return add_form(set, SPH_PRESSURE_FORCE, term, "s", error);
+}
+
+static int add_conduction(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  return claim(set, SPH_CONDUCTION, term->name, error);
+}
+
 static int add_delta(sph_term_set *set, const sph_term *term, sph_error *error)
 {
   unsigned bit = 0;
   if (term->form && !strcmp(term->form, "molteni")) bit = SPH_MOLTENI;
   if (term->form && !strcmp(term->form, "antuono")) bit = SPH_ANTUONO;
+  if (term->form && !strcmp(term->form, "fourtakas")) bit = SPH_FOURTAKAS;
   if (!bit)
     return sph_error_set(error, SPH_ERR_ARGUMENT,
-                         "term delta: model \"%s\"; known: molteni, antuono",
+                         "term delta: model \"%s\"; known: molteni, antuono, fourtakas",
                          term->form ? term->form : "");
   int status = not_below_zero(term->name, "delta", term->delta, error);
-  if (!status && (set->bits & (SPH_MOLTENI | SPH_ANTUONO)))
+  if (!status && (set->bits & SPH_DIFFUSION))
     status = sph_error_set(error, SPH_ERR_ARGUMENT, "term delta: added twice");
   set->bits |= bit;
   set->delta = term->delta;
@@ -78,67 +156,153 @@ static int add_gravity(sph_term_set *set, const sph_term *term, sph_error *error
   return SPH_OK;
 }
 
-static int add_body(sph_term_set *set, const sph_term *term, sph_error *error)
+int sph_term_set_scalar(const sph_term_set *set, const char *name)
 {
-  if (!term->body)
+  for (int k = 0; name && k < set->scalars; k++)
+    if (!strcmp(set->scalar[k].name, name)) return k;
+  return -1;
+}
+
+static int check_scalar(const sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+  const sph_scalar *scalar = &term->scalar;
+  size_t n = strlen(scalar->name);
+  if (n == 0 || n >= SPH_TERM_NAME_MAX || strspn(scalar->name, letters) != n)
     return sph_error_set(error, SPH_ERR_ARGUMENT,
-                         "term \"%s\": not a built-in one and without a body function", term->name);
-  if (!isfinite(term->omega))
-    return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: omega = %g is not finite", term->name,
-                         term->omega);
-  if (set->bodies == SPH_BODY_TERMS_MAX)
-    return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: more than %d body terms", term->name,
-                         SPH_BODY_TERMS_MAX);
-  int k = set->bodies++;
-  snprintf(set->name[k], sizeof set->name[k], "%s", term->name);
-  set->body[k] = *term;
-  set->body[k].name = set->name[k];
-  set->body[k].form = NULL;
+                         "term %s: scalar \"%.80s\"; right is 1 to %d of A-Z a-z 0-9 _", term->name,
+                         scalar->name, SPH_TERM_NAME_MAX - 1);
+  if (sph_field_find(scalar->name) >= 0 || sph_term_set_scalar(set, scalar->name) >= 0)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term %s: there is a field %s already; choose another name", term->name,
+                         scalar->name);
+  if (!(scalar->scale > 0 && scalar->scale < INFINITY) || !isfinite(scalar->initial))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term %s: scalar %s: scale = %g, initial = %g; right is finite and scale "
+                         "> 0",
+                         term->name, scalar->name, scalar->scale, scalar->initial);
+  if (set->scalars == SPH_SCALARS_MAX)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: more than %d scalars", term->name,
+                         SPH_SCALARS_MAX);
+  return SPH_OK;
+}
+
+static int keep_scalar(sph_term_set *set, const sph_scalar *scalar)
+{
+  sph_scalar_kept *kept = &set->scalar[set->scalars];
+  snprintf(kept->name, sizeof kept->name, "%s", scalar->name);
+  snprintf(kept->unit, sizeof kept->unit, "%s", scalar->unit ? scalar->unit : "1");
+  kept->scale = scalar->scale;
+  kept->initial = scalar->initial;
+  kept->info = (sph_field_info){kept->name, kept->name, kept->unit, 0, 1, 1};
+  return set->scalars++;
+}
+
+static int check_called(const sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  if (!term->body && !term->pair)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term \"%s\": not a built-in one and without a body or pair function",
+                         term->name);
+  if (!strcmp(term->name, "heat-source") && !term->power && !term->ctx)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "term heat-source: no power function (NULL)");
+  if (is_finite(term, "omega", term->omega, error)) return SPH_ERR_ARGUMENT;
+  if (term->reads && strlen(term->reads) >= SPH_TERM_READS_MAX)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: reads of more than %d characters",
+                         term->name, SPH_TERM_READS_MAX - 1);
+  if (set->called == SPH_CALLED_TERMS_MAX)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: more than %d terms with functions",
+                         term->name, SPH_CALLED_TERMS_MAX);
+  return term->scalar.name ? check_scalar(set, term, error) : SPH_OK;
+}
+
+static int add_called(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  int status = check_called(set, term, error);
+  if (status) return status;
+  sph_called_term *kept = &set->call[set->called++];
+  kept->term = *term;
+  snprintf(kept->name, sizeof kept->name, "%s", term->name);
+  snprintf(kept->reads, sizeof kept->reads, "%s", term->reads ? term->reads : "");
+  kept->term.name = kept->name;
+  kept->term.reads = kept->reads;
+  kept->term.form = NULL;
+  kept->scalar = term->scalar.name ? keep_scalar(set, &term->scalar) : -1;
+  if (kept->scalar >= 0) {
+    kept->term.scalar.name = set->scalar[kept->scalar].name;
+    kept->term.scalar.unit = set->scalar[kept->scalar].unit;
+  }
+  set->pairs += term->pair != NULL;
+  set->heats += !strcmp(term->name, "heat-source");
   return SPH_OK;
 }
 
 static int add(sph_term_set *set, const sph_term *term, sph_error *error)
 {
+  static const struct {
+    const char *name;
+    int (*add)(sph_term_set *set, const sph_term *term, sph_error *error);
+  } built_in[] = {
+      {"continuity", add_continuity},
+      {"summation", add_summation},
+      {"pressure", add_pressure},
+      {"viscosity-artificial", add_viscosity},
+      {"viscosity-signal", add_signal},
+      {"viscosity-laminar", add_laminar},
+      {"conductivity-artificial", add_conductivity},
+      {"conduction", add_conduction},
+      {"xsph", add_xsph},
+      {"delta", add_delta},
+      {"gravity", add_gravity},
+  };
   if (!term->name || !*term->name)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "a term without a name");
-  if (term->body) return add_body(set, term, error);
-  if (!strcmp(term->name, "continuity")) return add_form(set, SPH_CONTINUITY, term, "c1", error);
-  if (!strcmp(term->name, "pressure")) return add_form(set, SPH_PRESSURE_FORCE, term, "s", error);
-  if (!strcmp(term->name, "viscosity-artificial")) return add_viscosity(set, term, error);
-  if (!strcmp(term->name, "conductivity-artificial")) return add_conductivity(set, term, error);
-  if (!strcmp(term->name, "delta")) return add_delta(set, term, error);
-  if (!strcmp(term->name, "gravity")) return add_gravity(set, term, error);
-  return add_body(set, term, error);
+  for (size_t k = 0; !term->body && !term->pair && k < sizeof built_in / sizeof *built_in; k++)
+    if (!strcmp(term->name, built_in[k].name)) return built_in[k].add(set, term, error);
+  return add_called(set, term, error);
 }
 
 int sph_term_set_add(sph_term_set *set, const sph_term *term, sph_error *error)
 {
-  int bodies = set->bodies, status = add(set, term, error);
-  if (set->bodies == bodies && term->free) term->free(term->ctx); /* not kept */
+  int called = set->called, status = add(set, term, error);
+  int kept = set->called > called || (!status && term->phi); /* phi reads ctx in every evaluation */
+  if (!kept && term->free) term->free(term->ctx);
   return status;
 }
 
 int sph_term_set_check(const sph_term_set *set, sph_error *error)
 {
-  if (set->form_c2 && set->form_c1)
+  int forms = (set->form_c2 != 0) + (set->form_c1 != 0) + (set->form_phi != 0);
+  if (forms > 1)
     return sph_error_set(error, SPH_ERR_ARGUMENT,
                          "continuity and pressure of different rows do not conserve energy: "
-                         "use c2 with c2, or c1 with s");
+                         "use c2 with c2, c1 or summation with s, phi with phi");
+  if (set->form_phi == SPH_PRESSURE_FORCE)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term pressure: form phi takes phi from continuity of form phi");
+  if (set->summed && (set->bits & SPH_DIFFUSION) && set->delta > 0)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term delta diffuses a density that is integrated; summation has none: "
+                         "leave one of them out");
   return SPH_OK;
 }
 
 void sph_term_set_free(sph_term_set *set)
 {
-  for (int k = 0; k < set->bodies; k++)
-    if (set->body[k].free) set->body[k].free(set->body[k].ctx);
-  set->bodies = 0;
+  for (int k = 0; k < set->called; k++)
+    if (set->call[k].term.free) set->call[k].term.free(set->call[k].term.ctx);
+  if (set->phi.phi && set->phi.free) set->phi.free(set->phi.ctx);
+  set->phi = (sph_term){0};
+  set->called = 0;
 }
 
 double sph_term_set_potential(const sph_term_set *set, const double x[3])
 {
   double potential = 0;
   for (int d = 0; d < 3; d++) potential -= set->g[d] * x[d];
-  for (int k = 0; k < set->bodies; k++)
-    if (set->body[k].potential) potential += set->body[k].potential(&set->body[k], x);
+  for (int k = 0; k < set->called; k++) {
+    const sph_term *term = &set->call[k].term;
+    if (term->potential) potential += term->potential(term, x);
+  }
   return potential;
 }

@@ -1,22 +1,41 @@
-/* term_set.h -- the terms of a simulation: what the fused loops need of them, and the body
- * terms. */
+/* term_set.h -- the terms of a simulation: what the fused loops need of them, and those that are
+ * called: body terms and users' own. */
 #ifndef SPH_TERM_SET_H
 #define SPH_TERM_SET_H
 #include "fluid_pair.h"
+#include "sphode/field.h"
 #include "sphode/term.h"
 
-enum { SPH_BODY_TERMS_MAX = 32, SPH_TERM_NAME_MAX = 64 };
+enum { SPH_CALLED_TERMS_MAX = 32, SPH_TERM_NAME_MAX = 64, SPH_TERM_READS_MAX = 256 };
+
+/* A term with callbacks, and its strings. */
+typedef struct sph_called_term {
+  sph_term term;
+  char name[SPH_TERM_NAME_MAX], reads[SPH_TERM_READS_MAX];
+  int scalar; /* its number among the scalars, or -1 */
+} sph_called_term;
+
+typedef struct sph_scalar_kept {
+  char name[SPH_TERM_NAME_MAX], unit[SPH_TERM_NAME_MAX];
+  double scale, initial;
+  sph_field_info info; /* name and unit point into this struct */
+} sph_scalar_kept;
 
 typedef struct sph_term_set {
-  unsigned bits;             /* pair terms: SPH_CONTINUITY | ... */
-  unsigned form_c2, form_c1; /* which terms asked for which row: all must be the same */
-  double alpha, beta;        /* artificial viscosity */
-  double alpha_u;            /* artificial conductivity */
-  double delta;              /* density diffusion */
-  double g[3];               /* sum of the uniform body forces [m/s^2] */
-  int bodies;
-  sph_term body[SPH_BODY_TERMS_MAX];
-  char name[SPH_BODY_TERMS_MAX][SPH_TERM_NAME_MAX];
+  unsigned bits; /* pair terms: SPH_CONTINUITY | ... */
+  /* Which terms asked for which row: all must be the same. */
+  unsigned form_c2, form_c1, form_phi;
+  int summed, calibrate;             /* density is a sum over neighbours */
+  double alpha, beta;                /* artificial viscosity */
+  double signal_alpha, signal_beta;  /* the one with a signal velocity */
+  double alpha_u;                    /* artificial conductivity */
+  double delta;                      /* density diffusion */
+  double epsilon;                    /* XSPH */
+  sph_term phi;                      /* of form phi: its exponent, phi, ctx; name NULL: none */
+  double g[3];                       /* sum of the uniform body forces [m/s^2] */
+  int called, pairs, heats, scalars; /* pairs, heats: called terms with pair; heat sources */
+  sph_called_term call[SPH_CALLED_TERMS_MAX];
+  sph_scalar_kept scalar[SPH_SCALARS_MAX];
 } sph_term_set;
 
 /* Checks a term and takes it in (its ctx too: on failure it is let go of). */
@@ -26,5 +45,7 @@ int sph_term_set_check(const sph_term_set *set, sph_error *error);
 void sph_term_set_free(sph_term_set *set);
 /* Energy per mass of all body forces that have a potential [J/kg]. */
 double sph_term_set_potential(const sph_term_set *set, const double x[3]);
+/* Number of the scalar of that name, or -1. */
+int sph_term_set_scalar(const sph_term_set *set, const char *name);
 
 #endif

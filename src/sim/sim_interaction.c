@@ -1,0 +1,154 @@
+/* An interaction (target <- source): which terms act, with which constants, and in which loop. */
+#include <math.h>
+#include <string.h>
+
+#include "fluid_loops.h"
+#include "sim_rhs.h"
+#include "tile_loops.h"
+
+int sph_sim_interaction_same_fluid(const sph_group *target, const sph_group *source)
+{
+  return source->wall || (source->eos.rho0 == target->eos.rho0 && source->eos.c0 == target->eos.c0);
+}
+
+static unsigned terms_of(const sph_sim *sim, const sph_group *target, const sph_group *source)
+{
+  unsigned terms = sim->loop_terms;
+  if (!sph_sim_interaction_same_fluid(target, source)) terms &= ~(unsigned)SPH_DIFFUSION;
+  if (!source->wall) return terms;
+  terms &= ~(unsigned)(SPH_CONDUCTIVITY | SPH_XSPH);
+  if (!(source->boundary.temperature > 0)) terms &= ~(unsigned)SPH_CONDUCTION; /* adiabatic */
+  if (!source->boundary.no_slip)
+    terms &= ~(unsigned)SPH_VISCOUS;
+  else if ((terms & SPH_VISCOUS) || sim->terms.pairs)
+    terms |= SPH_NO_SLIP;
+  return terms | SPH_WALL;
+}
+
+/* 2 a b/(a + b); 0 where one of them is. */
+static double harmonic(double a, double b) { return a > 0 && b > 0 ? 2 * a * b / (a + b) : 0; }
+
+/* Viscosity of the fluid itself at a wall; conductivity too unless the wall has its own. */
+static void material(const sph_sim *sim, const sph_group *i, const sph_group *j, fluid_constants *k)
+{
+  double eta = j->wall ? i->viscosity : j->viscosity;
+  double kappa = j->wall && j->conductivity == 0 ? i->conductivity : j->conductivity;
+  k->laminar = i->viscosity + eta;
+  if (k->terms & SPH_MCG) k->laminar = 2 * (sim->dim + 2) * harmonic(i->viscosity, eta);
+  k->conduction = 2 * harmonic(i->conductivity, kappa);
+}
+
+/* Series of (1 + x)^(1/gamma) - 1 for Fourtakas' diffusion, x = column . r. */
+static void column(const sph_sim *sim, const sph_eos *eos, fluid_constants *k)
+{
+  k->rho0 = eos->rho0;
+  for (int d = 0; d < 3; d++) k->column[d] = -eos->gamma * sim->terms.g[d] / (eos->c0 * eos->c0);
+  for (int n = 0; n < SPH_FOURTAKAS_TERMS; n++) k->series[n] = (1 / eos->gamma - n) / (n + 1);
+}
+
+fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_group *target,
+                                              const sph_group *source)
+{
+  const sph_term_set *set = &sim->terms;
+  const double h = sim->h;
+  fluid_constants k = {.terms = terms_of(sim, target, source),
+                       .inverse_h = 1 / h,
+                       .eta2 = 0.01 * h * h,
+                       .viscosity_1 = -set->alpha * h,
+                       .viscosity_2 = 2 * set->beta * h * h,
+                       .signal_1 = -set->signal_alpha,
+                       .signal_2 = set->signal_beta,
+                       .alpha_u = set->alpha_u,
+                       .epsilon = set->epsilon};
+  material(sim, target, source, &k);
+  if (k.laminar == 0) k.terms &= ~(unsigned)(SPH_MORRIS | SPH_MCG);
+  if (k.conduction == 0) k.terms &= ~(unsigned)SPH_CONDUCTION;
+  if (k.terms & SPH_FOURTAKAS) column(sim, &target->eos, &k);
+  return k;
+}
+
+/* Registered pair terms beside the built-in ones. */
+static void add_tiles(sph_evaluation *e, const fluid_constants *fluid, int target, int source)
+{
+  sph_sim *sim = e->sim;
+  tile_constants k = {.fluid = *fluid,
+                      .F_scale = sim->F_scale,
+                      .t = e->t,
+                      .h = sim->h,
+                      .target = sim->group[target]->name,
+                      .source = sim->group[source]->name,
+                      .slots = (int)sim->sorted[target].stride,
+                      .scalars = sim->terms.scalars,
+                      .fields = sim->tile_fields,
+                      .terms = sim->tile_terms};
+  memcpy(k.term, sim->tile, sizeof k.term);
+  sph_sim_pairs_loop(sim, sph_tile_loop(sim->isa, sim->kernel_number, sim->dim), target, source,
+                     &k);
+}
+
+void sph_sim_interaction_add(sph_evaluation *e, int target, int source)
+{
+  sph_sim *sim = e->sim;
+  const fluid_constants k =
+      sph_sim_interaction_constants(sim, sim->group[target], sim->group[source]);
+  if (sim->tile_terms)
+    add_tiles(e, &k, target, source);
+  else
+    sph_sim_pairs_loop(sim, sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, k.terms), target,
+                       source, &k);
+}
+
+/* ---- which fields tiles hold ---- */
+
+static int field_number(const sph_sim *sim, const char *name)
+{
+  static const char *const names[] = {[SPH_TILE_DENSITY] = "density",
+                                      [SPH_TILE_PRESSURE] = "pressure",
+                                      [SPH_TILE_SOUND_SPEED] = "sound_speed",
+                                      [SPH_TILE_ENERGY] = "energy",
+                                      [SPH_TILE_TEMPERATURE] = "temperature"};
+  for (int f = 0; f < SPH_TILE_SCALAR; f++)
+    if (!strcmp(name, names[f])) return f;
+  int scalar = sph_term_set_scalar(&sim->terms, name);
+  return scalar < 0 ? -1 : SPH_TILE_SCALAR + scalar;
+}
+
+/* "density sound_speed": the fields of one term. */
+static int read_fields(sph_sim *sim, const sph_called_term *call, sph_tile_term *tile)
+{
+  char text[SPH_TERM_READS_MAX], *rest = NULL;
+  memcpy(text, call->reads, sizeof text);
+  for (char *word = strtok_r(text, " ,", &rest); word; word = strtok_r(NULL, " ,", &rest)) {
+    int field = field_number(sim, word);
+    if (field < 0)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "term %s reads \"%.60s\"; known: density, pressure, sound_speed, energy, "
+                          "temperature and scalars of terms",
+                          call->name, word);
+    if ((field == SPH_TILE_ENERGY || field == SPH_TILE_TEMPERATURE) &&
+        !(sim->loop_terms & SPH_THERMAL))
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "term %s reads %s, which no fluid has", call->name,
+                          word);
+    if (tile->reads == SPH_TILE_READS)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "term %s reads more than %d fields", call->name,
+                          SPH_TILE_READS);
+    tile->read[tile->reads++] = (unsigned char)field;
+    sim->tile_fields |= 1u << field;
+    sim->needs_temperature |= field == SPH_TILE_TEMPERATURE;
+  }
+  return SPH_OK;
+}
+
+int sph_sim_interaction_prepare(sph_sim *sim)
+{
+  int status = SPH_OK;
+  for (int k = 0; !status && k < sim->terms.called; k++) {
+    const sph_called_term *call = &sim->terms.call[k];
+    if (!call->term.pair) continue;
+    sph_tile_term *tile = &sim->tile[sim->tile_terms++];
+    *tile = (sph_tile_term){.term = &call->term, .scalar = call->scalar};
+    if (call->scalar >= 0) sim->tile_fields |= 1u << (SPH_TILE_SCALAR + call->scalar);
+    status = read_fields(sim, call, tile);
+  }
+  return status;
+}
