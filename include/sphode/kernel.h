@@ -11,19 +11,21 @@ extern "C" {
 
 typedef struct sph_kernel sph_kernel; /* one row of kernels.def; never freed */
 
-/* The kernel of that name ("wendland-c2", "cubic-spline"), or NULL. */
+/* The kernel of that name ("wendland-c2"; sphode info kernels lists them), or NULL. */
 SPH_API const sph_kernel *sph_kernel_find(const char *name);
 /* Kernel number k = 0, 1, ... or NULL behind the last. */
 SPH_API const sph_kernel *sph_kernel_get(int k);
 SPH_API const char *sph_kernel_name(const sph_kernel *kernel);
 SPH_API const char *sph_kernel_formula(const sph_kernel *kernel,
-                                       int dim);                     /* one line, for people */
-SPH_API const char *sph_kernel_smoothness(const sph_kernel *kernel); /* "C2" */
+                                       int dim); /* one line, for people */
+/* "C2"; where it is less than C1: where, as "C0 at r=0", "jump at 3h". */
+SPH_API const char *sph_kernel_smoothness(const sph_kernel *kernel);
 SPH_API double sph_kernel_support(const sph_kernel *kernel);        /* kappa = support radius / h */
 SPH_API double sph_kernel_sigma(const sph_kernel *kernel, int dim); /* sigma_d */
 SPH_API double sph_kernel_h_over_dx(const sph_kernel *kernel);      /* recommended h/dx */
 
-/* All with dim = 1, 2, 3, r >= 0 [m], h > 0 [m]; NaN for a bad dim or h <= 0. */
+/* All with dim = 1, 2, 3, r >= 0 [m], h > 0 [m]; NaN for a bad dim or h <= 0.  At r = 0 those of
+ * "spiky" are limits: dW/dr is not zero, F and in 2D, 3D the Laplacian are -infinity. */
 SPH_API double sph_kernel_w(const sph_kernel *kernel, int dim, double r, double h); /* W [m^-d] */
 SPH_API double sph_kernel_dwdr(const sph_kernel *kernel, int dim, double r,
                                double h); /* dW/dr [m^-(d+1)] */

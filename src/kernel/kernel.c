@@ -14,13 +14,16 @@ struct sph_kernel {
   double support;
   const char *smoothness;
   double h_over_dx;
+  double slope_at_0;      /* limit of w' at q -> 0 */
   double sigma[3];        /* [dim - 1] */
+  double variance[3];     /* sigma_k^2 [dim - 1] */
   const char *formula[3]; /* [dim - 1] */
 };
 
 static const sph_kernel table[] = {
-#define X(number, name, support, smoothness, h_over_dx, s1, s2, s3, f1, f2, f3) \
-  [number] = {number, name, support, smoothness, h_over_dx, {s1, s2, s3}, {f1, f2, f3}},
+#define X(number, name, support, smoothness, h_over_dx, slope, s1, s2, s3, v1, v2, v3, f1, f2, f3) \
+  [number] = {number, name,         support,      smoothness,  h_over_dx,                          \
+              slope,  {s1, s2, s3}, {v1, v2, v3}, {f1, f2, f3}},
 #include "kernels.def"
 #undef X
 };
@@ -70,12 +73,24 @@ static double shape_w(const sph_kernel *kernel, int dim, double q)
 {
   return kernel_shape_w(number(kernel), dim, v_set(q))[0];
 }
+/* f, and l in 2D and 3D, are infinite at q = 0 where w' is not zero. */
+static int singular(const sph_kernel *kernel, double q)
+{
+  return q == 0 && kernel && kernel->slope_at_0 < 0;
+}
 static double shape_f(const sph_kernel *kernel, int dim, double q)
 {
+  if (singular(kernel, q)) return -INFINITY;
   return kernel_shape_f(number(kernel), dim, v_set(q))[0];
+}
+/* w' = q f */
+static double shape_slope(const sph_kernel *kernel, int dim, double q)
+{
+  return singular(kernel, q) ? kernel->slope_at_0 : q * shape_f(kernel, dim, q);
 }
 static double shape_laplacian(const sph_kernel *kernel, int dim, double q)
 {
+  if (dim > 1 && singular(kernel, q)) return -INFINITY;
   return kernel_shape_laplacian(number(kernel), dim, v_set(q))[0];
 }
 
@@ -86,8 +101,7 @@ double sph_kernel_w(const sph_kernel *kernel, int dim, double r, double h)
 
 double sph_kernel_dwdr(const sph_kernel *kernel, int dim, double r, double h)
 {
-  double q = r / h;
-  return scale(kernel, dim, h, 1) * (q * shape_f(kernel, dim, q)) + 0.0; /* no minus zero */
+  return scale(kernel, dim, h, 1) * shape_slope(kernel, dim, r / h) + 0.0; /* no minus zero */
 }
 
 double sph_kernel_f(const sph_kernel *kernel, int dim, double r, double h)
@@ -100,10 +114,10 @@ double sph_kernel_laplacian(const sph_kernel *kernel, int dim, double r, double 
   return scale(kernel, dim, h, 2) * shape_laplacian(kernel, dim, r / h);
 }
 
-/* dW/dh = -(sigma_d/h^(d+1)) (d w + q w'),  w' = q f */
+/* dW/dh = -(sigma_d/h^(d+1)) (d w + q w') */
 double sph_kernel_dwdh(const sph_kernel *kernel, int dim, double r, double h)
 {
   double q = r / h;
-  double shape = dim * shape_w(kernel, dim, q) + q * (q * shape_f(kernel, dim, q));
+  double shape = dim * shape_w(kernel, dim, q) + q * shape_slope(kernel, dim, q);
   return -scale(kernel, dim, h, 1) * shape;
 }
