@@ -227,11 +227,7 @@ BODY vec kernel_spiky_laplacian(int dim, vec q)
   if (kernel == number) return shape##_laplacian(dim, q);
 
 /* Does f grow without bound towards q = 0? */
-BODY int kernel_shape_singular(int kernel)
-{
-  (void)kernel;
-  return 0;
-}
+BODY int kernel_shape_singular(int kernel) { return kernel == SPH_KERNEL_SPIKY; }
 
 /* Of an unknown kernel: NaN. */
 BODY vec kernel_shape_w(int kernel, int dim, vec q)
