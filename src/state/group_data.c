@@ -57,7 +57,7 @@ void sph_group_data_place(struct sph_group *group, sph_layout *layout)
 {
   static const int role[SPH_FIELDS] = {[SPH_POSITION] = SPH_ROLE_POSITION,
                                        [SPH_VELOCITY] = SPH_ROLE_VELOCITY,
-                                       [SPH_DENSITY] = SPH_ROLE_OTHER,
+                                       [SPH_DENSITY] = SPH_ROLE_DENSITY,
                                        [SPH_ENERGY] = SPH_ROLE_OTHER};
   int position = layout->segments;
   for (int field = 0; field < SPH_FIELDS; field++) {

@@ -4,13 +4,21 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "integrator_data.h"
 #include "stability.h"
 
-/* The staggered leapfrog and the velocity Verlet scheme are one scheme in two notations: they
- * have one stepper (integrator_leapfrog.c). */
-static const sph_integrator_info own[] = {
-    {"leapfrog", 2, 1, 0, 0.72},
-    {"verlet", 2, 1, 0, 0.72},
+/* The staggered leapfrog and the velocity Verlet scheme are one scheme in two notations. */
+static const struct {
+  const char *name;
+  const sph_scheme *scheme;
+} own[] = {
+    {"leapfrog", &sph_integrator_leapfrog},
+    {"verlet", &sph_integrator_leapfrog},
+    {"dkd", &sph_integrator_dkd},
+    {"predictor-corrector", &sph_integrator_predictor_corrector},
+    {"midpoint", &sph_integrator_midpoint},
+    {"verlet-dual", &sph_integrator_verlet_dual},
+    {"symplectic", &sph_integrator_symplectic},
 };
 enum { OWN = sizeof own / sizeof *own };
 
@@ -36,6 +44,11 @@ const char *sph_integrator_table_name(int k)
   return k < OWN ? own[k].name : erk[k - OWN].name;
 }
 
+const sph_scheme *sph_integrator_table_scheme(int k)
+{
+  return k >= 0 && k < OWN ? own[k].scheme : NULL;
+}
+
 ARKODE_ERKTableID sph_integrator_table_erk(int k)
 {
   return k < OWN ? ARKODE_ERK_NONE : (ARKODE_ERKTableID)(ARKODE_MIN_ERK_NUM + k - OWN);
@@ -49,11 +62,20 @@ int sph_integrator_table_fsal(const struct ARKodeButcherTableMem *table)
   return fabs(table->c[last] - 1) < 1e-14;
 }
 
+sph_integrator_info sph_integrator_table_scheme_info(const sph_scheme *scheme)
+{
+  return (sph_integrator_info){.name = scheme->name,
+                               .order = scheme->order,
+                               .stages = scheme->stages,
+                               .stability = scheme->stability};
+}
+
 int sph_integrator_table_info(int k, sph_integrator_info *info)
 {
   if (!sph_integrator_table_name(k)) return 0;
   if (k < OWN) {
-    *info = own[k];
+    *info = sph_integrator_table_scheme_info(own[k].scheme);
+    info->name = own[k].name;
     return 1;
   }
   ARKodeButcherTable table = ARKodeButcherTable_LoadERK(sph_integrator_table_erk(k));
