@@ -22,14 +22,14 @@ typedef struct sph_segment {
 /* One step of a scheme of your own, from y0 at t to y at t1.  All arrays have n entries: those of
  * the segments and padding, which is zero and may be computed with. */
 typedef struct sph_ode {
-  double t, t1, h; /* start, end and size of the step [s] */
-  double h_last;   /* size of the step before; 0: there is none since the start or a reset [s] */
-  long step;       /* steps since the start or the last reset: 0, 1, ... */
-  long n;          /* doubles in each array */
+  double t, t1, h;       /* start, end and size of the step [s] */
+  double h_last;         /* of the step before; 0: none since the start or a reset [s] */
+  long step;             /* steps since the start or the last reset: 0, 1, ... */
+  long n;                /* doubles in each array */
   const double *y0, *f0; /* [n] state at t; rates there (see sph_scheme.carries) */
   double *y;             /* [n] comes as y0; to be the state at t1 */
   double *f1;            /* [n] free to use; with carries the f0 of the next step */
-  double *const *work; /* [sph_scheme.work][n]; kept from step to step, also one that is repeated */
+  double *const *work;   /* [sph_scheme.work][n]; kept from step to step, repeated ones too */
   int segments;
   const sph_segment *segment; /* [segments] */
   int drift;   /* positions move with more than their velocities: dr/dt, in f, is not v */
@@ -37,13 +37,14 @@ typedef struct sph_ode {
 } sph_ode;
 
 /* f = f(t, y) inside a step; y and f are arrays of the sph_ode, f none of y0, f0 (and y != f).
- * Returns 0, or a status that the step then returns at once: > 0 (SPH_RETRY): y is not admissible. */
+ * Returns 0, or a status that the step then returns at once; > 0 (SPH_RETRY): y is not
+ * admissible. */
 SPH_API int sph_ode_rhs(sph_ode *ode, double t, const double *y, double *f);
 
 enum { SPH_SCHEME_WORK_MAX = 16 };
 
 /* An explicit scheme: the built-in ones, of which `sphode info integrators` tells, and your own
- * use the same struct.  Retries, stop times, step limits, dense output, statistics are the library's. */
+ * use the same struct.  Retries, stop times, limits, dense output, statistics are the library's. */
 typedef struct sph_scheme {
   const char *name; /* copied; not that of a built-in one */
   int order;        /* >= 1 */

@@ -4,9 +4,9 @@
  *   evaluate  f1 = f(t1, r*, v*, q*)
  *   kick      v1 = v0 + h/2 (a0 + a1),  q1 = q0 + h/2 (R0 + R1),  r1 = r* + h/2 (d1 - d0)
  * v0 + h/2 a0 is the half-step velocity of the staggered leapfrog; d = dr/dt - v, zero without
- * drift.  Second order also for forces of v and q, because these are predicted at t1; with half-step
- * values it would be first order.  Symplectic for forces of positions alone and constant h (Hairer,
- * Lubich & Wanner 2003). */
+ * drift.  Second order also for forces of v and q, because these are predicted at t1; with
+ * half-step values it would be first order.  Symplectic for forces of positions alone and constant
+ * h (Hairer, Lubich & Wanner 2003). */
 #include "integrator_data.h"
 #include "scheme.h"
 

@@ -3,8 +3,8 @@
  *   correct   v1 = v0 + h/2 (a0 + a*),  q1 = q0 + h/2 (R0 + R*),  f* = f(t1, y*)
  *             r1 = r0 + h/2 (v0 + v1) + h/2 (d0 + d*)
  * Sound, which swings between v and the density, sees Heun's method as printed everywhere: its
- * amplitude grows by |1 + z + z^2/2| = sqrt(1 + (omega h)^4/4) a step, 1.0078 at omega h = 1/2.  What
- * swings between r and v does not: positions move with the corrected velocity. */
+ * amplitude grows by |1 + z + z^2/2| = sqrt(1 + (omega h)^4/4) a step, 1.0078 at omega h = 1/2.
+ * What swings between r and v does not: positions move with the corrected velocity. */
 #include "integrator_data.h"
 #include "scheme.h"
 

@@ -1,13 +1,13 @@
-/* DualSPHysics' Verlet scheme (Verlet 1967; Dominguez et al. 2022), one evaluation f = (v + d, a, R) a
- * step h, h' the step before:
- *   r1 = r0 + h v0 + h^2/2 a0,  v1 = v' + (h' + h) a0,  q1 = q' + (h' + h) R0     from y' at t0 - h'
- * and every N = 40 steps, the first included:  v1 = v0 + h a0,  q1 = q0 + h R0.  With drift positions
- * are stepped as q is.  As printed it has 2h for h' + h, which is right for constant steps only.
+/* DualSPHysics' Verlet scheme (Verlet 1967; Dominguez et al. 2022), one evaluation
+ * f = (v + d, a, R) a step h; h' is the step before, y' the state at t0 - h':
+ *   r1 = r0 + h v0 + h^2/2 a0,  v1 = v' + (h' + h) a0,  q1 = q' + (h' + h) R0
+ * and every N = 40 steps, the first included:  v1 = v0 + h a0,  q1 = q0 + h R0.  With drift
+ * positions are stepped as q is.  As printed it has 2h for h' + h, right for constant steps only.
  *
- * Second order, with forces of v and q, too.  An Euler step makes an error h^2/2 y'', but N is even: it
- * enters the states of odd steps alone, and the next Euler step starts from an even one.  (With odd N
- * such errors would add up: order 1.)  What the two-step formula brings along, a second solution
- * (-1)^n that grows where forces damp, the Euler steps cut back. */
+ * Second order, also with forces of v and q.  An Euler step makes an error h^2/2 y'', but N is
+ * even: it enters the states of odd steps alone, and the next Euler step starts from an even one.
+ * (With odd N such errors would add up: order 1.)  What the two-step formula brings along, a second
+ * solution (-1)^n that grows where forces damp, the Euler steps cut back. */
 #include <string.h>
 
 #include "integrator_data.h"

@@ -7,12 +7,14 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <complex.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "integrator_table.h"
 #include "ode.h"
 #include "stability.h"
 
@@ -21,8 +23,8 @@ static const double TURN = 6.283185307179586;
 typedef void (*problem)(ode *o);
 
 /* One of each kind of stepping, for what does not depend on the formulas. */
-static const char *const method[] = {"leapfrog",   NULL,  "erk:zonneveld-5-3-4",
-                                     "symplectic", "dkd", "verlet-dual"};
+static const char *const method[] = {"leapfrog", NULL,          "erk:zonneveld-5-3-4", "symplectic",
+                                     "dkd",      "verlet-dual", "erk:rdpk3sp35-5-2-3"};
 enum { METHODS = sizeof method / sizeof *method };
 
 /* Largest error at `stops` times up to t_end, with n steps between them. */
@@ -258,6 +260,24 @@ static void error_control_holds_the_tolerance(void **state)
                      0.05); /* steps ~ tolerance^(-1/3) */
 }
 
+/* |sum_k (ih)^k (b - d)^T A^(k-1) 1| */
+static double estimate_of(ARKodeButcherTable t, double h)
+{
+  double complex sum = 0, z = 1;
+  double v[32], next[32];
+  for (int i = 0; i < t->stages; i++) v[i] = 1;
+  for (int k = 1; k <= t->stages; k++) {
+    z *= I * h;
+    for (int i = 0; i < t->stages; i++) {
+      sum += z * (t->b[i] - t->d[i]) * v[i];
+      next[i] = 0;
+      for (int j = 0; j < t->stages; j++) next[i] += t->A[i][j] * v[j];
+    }
+    memcpy(v, next, sizeof v);
+  }
+  return cabs(sum);
+}
+
 /* The estimate of Bogacki & Shampine (1989) for y' = z/h y is y (z^3 + z^4)/48, so that for the
  * oscillator its rms over five entries is h^3 sqrt(1 + h^2)/(48 sqrt 5); the controller settles
  * at 0.9^3 of the tolerance. */
@@ -277,6 +297,36 @@ static void the_step_size_settles_where_it_should(void **state)
     if (k > 20) assert_float_equal(estimate / tolerance, 0.9 * 0.9 * 0.9, 0.01);
   }
   ode_end(&o);
+}
+
+/* The same for the controllers with memory: 0.9 (1 + arctan(x - 1)) = 1 with x = e^(-sum beta/p)
+ * where the estimate e, |R(ih) - Rhat(ih)| of the oscillator, stays. */
+static void controllers_with_memory_settle(void **state)
+{
+  static const struct {
+    const char *method;
+    double beta;
+  } row[] = {{"erk:rdpk3sp35-5-2-3", 0.64 - 0.31 + 0.04},
+             {"erk:rdpk3sp49-9-3-4", 0.25 - 0.12},
+             {"erk:rdpk3spfsal35-6-2-3", 0.70 - 0.23},
+             {"erk:rdpk3spfsal49-10-3-4", 0.38 - 0.18 + 0.01}};
+  const double tolerance = 1e-6, x = 1 + tan(1 / 0.9 - 1);
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    ode o;
+    ode_oscillator(&o);
+    o.problem.limits = NULL;
+    ode_start(&o, &(sph_integrator_def){.method = row[k].method, .tolerance = tolerance});
+    ARKodeButcherTable t =
+        sph_integrator_table_butcher(sph_integrator_table_find(row[k].method, NULL));
+    for (int n = 0; n < 400; n++) {
+      assert_int_equal(sph_integrator_step(o.it, 1000), SPH_OK);
+      double e = estimate_of(t, sph_integrator_stats(o.it)->dt_last) / sqrt(5) / tolerance;
+      if (n > 300) assert_float_equal(e / pow(x, -t->q / row[k].beta), 1, 0.01);
+    }
+    ARKodeButcherTable_Free(t);
+    ode_end(&o);
+  }
 }
 
 static void fixed_largest_and_smallest_steps(void **state)
@@ -369,11 +419,13 @@ static void reset_is_a_new_start(void **state)
 {
   (void)state;
   for (int k = 0; k < 2 * METHODS; k++) {
-    const sph_integrator_def def = {.method = method[k / 2], .tolerance = k % 2 ? -1 : 0};
+    int control = k == 2 * (METHODS - 1); /* errors, not limits, bind: the controller's memory */
+    const sph_integrator_def def = {.method = method[k / 2],
+                                    .tolerance = k % 2 ? -1 : control * 1e-6};
     ode o, fresh;
     ode_made(&o);
     ode_made(&fresh);
-    o.limit[SPH_BOUND_CFL] = fresh.limit[SPH_BOUND_CFL] = 0.02;
+    o.limit[SPH_BOUND_CFL] = fresh.limit[SPH_BOUND_CFL] = control ? 1 : 0.02;
     ode_start(&o, &def);
     ode_start(&fresh, &def);
     assert_int_equal(ode_run(&o, 0.5), SPH_OK);
@@ -493,6 +545,7 @@ int main(void)
       cmocka_unit_test(limits_bind_and_are_recorded),
       cmocka_unit_test(error_control_holds_the_tolerance),
       cmocka_unit_test(the_step_size_settles_where_it_should),
+      cmocka_unit_test(controllers_with_memory_settle),
       cmocka_unit_test(fixed_largest_and_smallest_steps),
       cmocka_unit_test(a_failed_evaluation_is_repeated),
       cmocka_unit_test(lasting_failure_stops_at_the_last_good_state),
