@@ -75,7 +75,9 @@ static void each_allocation_fails_once(void **state)
                                            {.own = &own, .dt_max = 0.05},
                                            {.dt_max = 0.05},
                                            {.tolerance = -1, .dt_max = 0.05},
-                                           {.method = "erk:zonneveld-5-3-4"}};
+                                           {.method = "erk:zonneveld-5-3-4"},
+                                           {.method = "erk:rdpk3sp35-5-2-3"},
+                                           {.method = "erk:rdpk3spfsal49-10-3-4", .dt_max = 0.05}};
   (void)state;
   for (size_t k = 0; k < sizeof def / sizeof *def; k++) {
     fail_at = calls = 0;
