@@ -7,18 +7,74 @@
 extern "C" {
 #endif
 
+/* What an entry of the ODE vector is: a second-order scheme may treat each kind in its own way. */
+enum sph_role { SPH_ROLE_POSITION, SPH_ROLE_VELOCITY, SPH_ROLE_DENSITY, SPH_ROLE_OTHER };
+
+/* Entries of one kind: those of one component of one field of one group. */
+typedef struct sph_segment {
+  long offset;   /* of the first entry, a multiple of 8 */
+  long n;        /* entries that count; the rest up to capacity is padding */
+  long capacity; /* a multiple of 8 */
+  int role;      /* enum sph_role */
+  int partner;   /* POSITION: index of the segment with its velocity; others: -1 */
+} sph_segment;
+
+/* One step of a scheme of your own, from y0 at t to y at t1.  All arrays have n entries: those of
+ * the segments and padding, which is zero and may be computed with. */
+typedef struct sph_ode {
+  double t, t1, h;       /* start, end and size of the step [s] */
+  double h_last;         /* of the step before; 0: none since the start or a reset [s] */
+  long step;             /* steps since the start or the last reset: 0, 1, ... */
+  long n;                /* doubles in each array */
+  const double *y0, *f0; /* [n] state at t; rates there (see sph_scheme.carries) */
+  double *y;             /* [n] comes as y0; to be the state at t1 */
+  double *f1;            /* [n] free to use; with carries the f0 of the next step */
+  double *const *work;   /* [sph_scheme.work][n]; kept from step to step, repeated ones too */
+  int segments;
+  const sph_segment *segment; /* [segments] */
+  int drift;   /* positions move with more than their velocities: dr/dt, in f, is not v */
+  int threads; /* that a loop may use */
+} sph_ode;
+
+/* f = f(t, y) inside a step; y and f are arrays of the sph_ode, f none of y0, f0 (and y != f).
+ * Returns 0, or a status that the step then returns at once; > 0 (SPH_RETRY): y is not
+ * admissible. */
+SPH_API int sph_ode_rhs(sph_ode *ode, double t, const double *y, double *f);
+
+enum { SPH_SCHEME_WORK_MAX = 16 };
+
+/* An explicit scheme: the built-in ones, of which `sphode info integrators` tells, and your own
+ * use the same struct.  Retries, stop times, limits, dense output, statistics are the library's. */
+typedef struct sph_scheme {
+  const char *name; /* copied; not that of a built-in one */
+  int order;        /* >= 1 */
+  int stages;       /* right-hand sides a step, that of f0 included; >= 1 */
+  double stability; /* S: dt <= cfl S h/(c + |v|); > 0 */
+  int work;         /* arrays wanted, at most SPH_SCHEME_WORK_MAX */
+  /* 0: f0 = f(t, y0): the library evaluates it, at the end of the step before.
+   * 1: f0 is what the step before left in f1, at first f(t, y0): for schemes with one evaluation a
+   *    step that is not at its ends. */
+  int carries;
+  /* Makes y of y0.  It may be repeated with a smaller h; what it changes in ctx must bear that.
+   * Returns 0, or what sph_ode_rhs returned, or a status < 0. */
+  int (*step)(void *ctx, sph_ode *ode);
+  void *ctx; /* borrowed */
+} sph_scheme;
+
 typedef struct sph_integrator_def {
-  /* "erk:<ARKODE table>", "leapfrog", "verlet" (the same); NULL: "erk:bogacki-shampine-4-2-3" */
+  /* "erk:<table>", "leapfrog", "verlet" (the same), "dkd", "predictor-corrector", "midpoint",
+   * "verlet-dual", "symplectic"; NULL: own's, or without one "erk:bogacki-shampine-4-2-3" */
   const char *method;
   /* Fraction of the scheme's stability limit; 0: 0.8 with error control, 0.35 without. */
   double cfl;
   /* Of a step's error, relative to the physical scales of each field; 0: 1e-2, or none where the
    * scheme has no estimate; < 0: no error control (CFL alone). */
   double tolerance;
-  double dt_max;   /* [s]; 0: no limit */
-  double dt_min;   /* a smaller step is a failure [s]; 0: 1e-9 of the first limit */
-  double dt_fixed; /* > 0: this step always, limits are not obeyed, nothing is halved [s] */
-  int retries;     /* halvings after a step that is not admissible before giving up; 0: 12 */
+  double dt_max;         /* [s]; 0: no limit */
+  double dt_min;         /* a smaller step is a failure [s]; 0: 1e-9 of the first limit */
+  double dt_fixed;       /* > 0: this step always, limits are not obeyed, nothing is halved [s] */
+  int retries;           /* halvings after a step that is not admissible before giving up; 0: 12 */
+  const sph_scheme *own; /* instead of method: a scheme of your own, copied; NULL: none */
 } sph_integrator_def;
 
 /* What one integrator is: a row of the table that `sphode info integrators` prints. */

@@ -15,7 +15,9 @@ extern "C" {
 
 /* The state: makes the simulation ready for its first evaluation (then no groups or terms are added
  * any more).  Owned by the simulation, as is the SUNContext in it; clone it for vectors of your
- * own, free those before the simulation.  NULL after a failure. */
+ * own, free those before the simulation.  A group's array lies in all of them where it lies in this
+ * one: at sph_group_read(group, field, component) - N_VGetArrayPointer(this).  NULL after a
+ * failure. */
 SPH_API N_Vector sph_sim_vector(sph_sim *sim);
 
 /* f(t, y), an ARKRhsFn and CVRhsFn with the simulation as user data: 0, > 0 where y is not

@@ -151,8 +151,14 @@ void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def)
     sph_sim_fail(sim, SPH_ERR_STATE, "the integrator is set before the run");
   else if (sph_integrator_check(def, &sim->error) == SPH_OK) {
     sim->integrator_def = *def;
-    if (def->method) snprintf(sim->method, sizeof sim->method, "%s", def->method);
+    const char *name = def->own ? def->own->name : def->method;
+    if (name) snprintf(sim->method, sizeof sim->method, "%s", name);
     sim->integrator_def.method = def->method ? sim->method : NULL;
+    if (def->own) {
+      sim->scheme = *def->own;
+      sim->scheme.name = sim->method;
+      sim->integrator_def.own = &sim->scheme;
+    }
     sim->has_integrator = 1;
   }
 }
@@ -196,7 +202,8 @@ const char *sph_sim_isa(const sph_sim *sim) { return sim ? sph_cpu_isa_name(sim-
 
 const char *sph_sim_integrator(const sph_sim *sim)
 {
-  return sim && sim->integrator_def.method ? sim->method : "erk:bogacki-shampine-4-2-3";
+  const sph_integrator_def *def = sim ? &sim->integrator_def : NULL;
+  return def && (def->method || def->own) ? sim->method : "erk:bogacki-shampine-4-2-3";
 }
 
 sph_group *sph_sim_group(const sph_sim *sim, const char *name)

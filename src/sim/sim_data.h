@@ -48,6 +48,7 @@ struct sph_sim {
   sph_outlet outlet[SPH_OUTPUTS_MAX];
   sph_integrator_def integrator_def;
   char method[SPH_METHOD_MAX];
+  sph_scheme scheme; /* the user's own, copied; its name is method */
   int (*progress)(void *ctx, sph_sim *sim);
   void *progress_ctx;
 

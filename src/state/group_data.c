@@ -83,6 +83,7 @@ void sph_group_data_free(struct sph_group *group)
 static int role_of(int field)
 {
   if (field == SPH_POSITION) return SPH_ROLE_POSITION;
+  if (field == SPH_DENSITY) return SPH_ROLE_DENSITY;
   return field == SPH_VELOCITY ? SPH_ROLE_VELOCITY : SPH_ROLE_OTHER;
 }
 

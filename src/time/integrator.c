@@ -3,6 +3,8 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "integrator_data.h"
 #include "integrator_table.h"
@@ -24,14 +26,53 @@ static int check_value(const char *name, double value, const char *right, int go
                        right);
 }
 
+/* Is a scheme of the user's own complete? */
+static int check_scheme(const sph_integrator_def *def, sph_error *error)
+{
+  const sph_scheme *own = def->own;
+  const char *name = own->name ? own->name : "", *wrong = NULL;
+  sph_error unknown = {0};
+  if (def->method)
+    wrong = "method is set, too; right is one of both";
+  else if (!*name || strlen(name) >= SPH_SCHEME_NAME_MAX)
+    wrong = "its name is missing or longer than 63 letters";
+  else if (sph_integrator_table_find(name, &unknown) >= 0)
+    wrong = "a built-in one has that name";
+  else if (!own->step)
+    wrong = "it has no step (NULL)";
+  else if (own->order < 1 || own->stages < 1)
+    wrong = "order and stages are 1 or more";
+  else if (!(own->stability > 0 && isfinite(own->stability)))
+    wrong = "its stability limit is to be > 0 and finite";
+  else if (own->work < 0 || own->work > SPH_SCHEME_WORK_MAX)
+    wrong = "work is 0 to 16 arrays";
+  if (!wrong) return SPH_OK;
+  return sph_error_set(error, SPH_ERR_ARGUMENT,
+                       "own integrator \"%.63s\": %s (order %d, stages %d, stability %g, work %d)",
+                       name, wrong, own->order, own->stages, own->stability, own->work);
+}
+
+/* Row of the table (-1: own) and what there is to tell of it.  Else recorded. */
+static int look_up(const sph_integrator_def *def, int *row, sph_integrator_info *info,
+                   sph_error *error)
+{
+  *row = -1;
+  if (def->own) {
+    int status = check_scheme(def, error);
+    if (!status) *info = sph_integrator_table_scheme_info(def->own);
+    return status;
+  }
+  *row = sph_integrator_table_find(def->method, error);
+  if (*row < 0) return SPH_ERR_ARGUMENT;
+  if (sph_integrator_table_info(*row, info)) return SPH_OK;
+  return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: table of %s", def->method);
+}
+
 int sph_integrator_check(const sph_integrator_def *def, sph_error *error)
 {
   sph_integrator_info info = {0};
-  int row = sph_integrator_table_find(def->method, error);
-  if (row < 0) return SPH_ERR_ARGUMENT;
-  if (!sph_integrator_table_info(row, &info))
-    return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: table of %s", def->method);
-  int status = check_value("cfl", def->cfl, "0 (default) or more", def->cfl >= 0, error);
+  int row, status = look_up(def, &row, &info, error);
+  if (!status) status = check_value("cfl", def->cfl, "0 (default) or more", def->cfl >= 0, error);
   if (!status) status = check_value("tolerance", def->tolerance, "any finite number", 1, error);
   if (!status)
     status = check_value("dt_max", def->dt_max, "0 or more [s]", def->dt_max >= 0, error);
@@ -49,9 +90,16 @@ int sph_integrator_check(const sph_integrator_def *def, sph_error *error)
 }
 
 /* Fills in the defaults. */
-static void define(sph_integrator *it, const sph_integrator_def *def, int row)
+static void define(sph_integrator *it, const sph_integrator_def *def)
 {
-  it->row = row;
+  it->scheme = sph_integrator_table_scheme(it->row);
+  if (def->own) {
+    snprintf(it->name, sizeof it->name, "%s", def->own->name);
+    it->user = *def->own;
+    it->user.name = it->info.name = it->name;
+    it->scheme = &it->user;
+  }
+  it->stepper = it->scheme ? &sph_ode_stepper : &sph_integrator_erk;
   it->def = *def;
   it->def.method = it->info.name;
   it->adaptive = it->info.error_control && def->tolerance >= 0 && !(def->dt_fixed > 0);
@@ -66,16 +114,13 @@ sph_integrator *sph_integrator_create(const sph_integrator_def *def, const sph_p
   if (sph_integrator_check(def, error)) return NULL;
   sph_integrator *it = SPH_NEW(sph_integrator, 1, "an integrator", error);
   if (!it) return NULL;
-  int row = sph_integrator_table_find(def->method, error);
-  int status = sph_integrator_table_info(row, &it->info) ? SPH_OK : SPH_ERR_MEMORY;
-  define(it, def, row);
+  int status = look_up(def, &it->row, &it->info, error);
+  define(it, def);
   it->problem = *problem;
   it->y = y;
   it->time = it->previous = t;
   it->cap = INFINITY;
   it->before = sph_nvector_clone(y, "the state before a step", error);
-  it->stepper = sph_integrator_table_erk(row) == ARKODE_ERK_NONE ? &sph_integrator_leapfrog
-                                                                 : &sph_integrator_erk;
   if (!it->before) status = SPH_ERR_MEMORY;
   if (!status) status = it->stepper->create(it, context);
   if (!status) return it;

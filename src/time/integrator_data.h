@@ -26,12 +26,17 @@ typedef struct sph_stepper {
   int (*interpolate)(sph_integrator *it, double t, N_Vector at);
 } sph_stepper;
 
+enum { SPH_SCHEME_NAME_MAX = 64 };
+
 struct sph_integrator {
   sph_problem problem;
   sph_integrator_def def; /* defaults filled in; method: the table's name */
   sph_integrator_info info;
-  int row;      /* of the table */
-  int adaptive; /* the step size follows the error estimate */
+  int row;                        /* of the table; -1: the user's own scheme */
+  const sph_scheme *scheme;       /* NULL: ARKODE's */
+  sph_scheme user;                /* copy of def.own */
+  char name[SPH_SCHEME_NAME_MAX]; /* and of its name */
+  int adaptive;                   /* the step size follows the error estimate */
   const sph_stepper *stepper;
   void *own;             /* the stepper's */
   N_Vector y;            /* borrowed */
@@ -54,6 +59,9 @@ int sph_integrator_limit(sph_integrator *it, double t, N_Vector y);
 /* Records a failure of the step that starts at it->time. */
 int sph_integrator_fail(sph_integrator *it, int status, const char *why);
 
-extern const sph_stepper sph_integrator_leapfrog, sph_integrator_erk;
+extern const sph_stepper sph_ode_stepper, sph_integrator_erk;
+extern const sph_scheme sph_integrator_leapfrog, sph_integrator_dkd,
+    sph_integrator_predictor_corrector, sph_integrator_midpoint, sph_integrator_verlet_dual,
+    sph_integrator_symplectic;
 
 #endif

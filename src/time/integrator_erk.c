@@ -17,10 +17,11 @@ typedef struct erk {
   sph_sundials_listener listener;
   sph_sundials_controller controller;
   int listening;
-  int used;       /* ARKODE has made a step since its creation */
-  int fresh;      /* the next attempt starts anew, with the step size of its plan */
-  double resume;  /* > 0: start anew with this step, which a stop time had cut short [s] */
-  char text[400]; /* what ARKODE said last */
+  int used;        /* ARKODE has made a step since its creation */
+  int fresh;       /* the next attempt starts anew, with the step size of its plan */
+  double error[2]; /* of the last two accepted steps, for controllers with memory; 1 at a start */
+  double resume;   /* > 0: start anew with this step, which a stop time had cut short [s] */
+  char text[400];  /* what ARKODE said last */
 } erk;
 
 /* ARKODE goes on with vectors that got no memory: their operations do nothing, and here it ends.
@@ -56,12 +57,29 @@ static int stable(N_Vector y, sunrealtype t, sunrealtype *h, void *data)
   return status;
 }
 
-/* Integral controller: error ~ h^(p + 1) with an embedded scheme of order p = order - 1. 
+/* Ranocha et al. (2022), section 2: from the errors e of this step and of the two accepted before,
+ *   h_new = h (1 + arctan(x - 1)),  x = prod_i e_i^(-beta_i/order). */
+static double control_pid(double h, double error, sph_integrator *it, const double *beta)
+{
+  erk *own = it->own;
+  const double e[3] = {fmax(error, 1e-10), own->error[0], own->error[1]};
+  double x = 1;
+  for (int i = 0; i < 3; i++) x *= pow(e[i], -beta[i] / it->info.order);
+  if (error <= 1) { /* else the step is repeated */
+    own->error[1] = own->error[0];
+    own->error[0] = e[0];
+  }
+  return h * (1 + atan(x - 1));
+}
+
+/* Integral controller: error ~ h^(p + 1) with an embedded scheme of order p = order - 1.
  * Without memory, so that a restart changes nothing. */
 static double control(double h, double error, void *data)
 {
-  const sph_integrator *it = data;
+  sph_integrator *it = data;
+  const double *beta = sph_integrator_table_control(it->row);
   if (!(error < INFINITY)) return h / 10;
+  if (beta) return control_pid(h, error, it, beta);
   return h * pow(fmax(error, 1e-10), -1.0 / it->info.order);
 }
 
@@ -80,28 +98,33 @@ static int nothing(sunrealtype t, N_Vector y, void *data)
 
 /* SUNDIALS up to 6.6.2 takes any last stage at c = 1 for the rate at the end, and loses order; a
  * hook after the step makes it evaluate anew. */
-static int repair(void *memory, int row)
+static int repair(void *memory, ARKodeButcherTable table)
 {
-  ARKodeButcherTable table = ARKodeButcherTable_LoadERK(sph_integrator_table_erk(row));
-  if (!table) return -1;
   int wrong = fabs(table->c[table->stages - 1] - 1) < 1e-10 && !sph_integrator_table_fsal(table);
-  ARKodeButcherTable_Free(table);
   return wrong ? ERKStepSetPostprocessStepFn(memory, nothing) : 0;
 }
 #else
-static int repair(void *memory, int row)
+static int repair(void *memory, ARKodeButcherTable table)
 {
-  (void)memory, (void)row;
+  (void)memory, (void)table;
   return 0;
 }
 #endif
+
+static int set_table(void *memory, int row)
+{
+  ARKodeButcherTable table = sph_integrator_table_butcher(row);
+  if (!table) return -1;
+  int failed = ERKStepSetTable(memory, table) || repair(memory, table); /* it keeps a copy */
+  ARKodeButcherTable_Free(table);
+  return failed;
+}
 
 static int configure(sph_integrator *it, erk *own)
 {
   void *m = own->memory;
   int failed =
-      SPH_ERK(SetUserData)(m, it) || ERKStepSetTableNum(m, sph_integrator_table_erk(it->row)) ||
-      repair(m, it->row) || SPH_ERK(WFtolerances)(m, weigh) ||
+      SPH_ERK(SetUserData)(m, it) || set_table(m, it->row) || SPH_ERK(WFtolerances)(m, weigh) ||
       SPH_ERK(SetInterpolantType)(m, ARK_INTERP_HERMITE) || SPH_ERK(SetInterpolantDegree)(m, 3);
   if (failed || !it->adaptive) return failed;
   own->controller = (sph_sundials_controller){.step = control, .ctx = it};
@@ -119,6 +142,7 @@ static int create(sph_integrator *it, SUNContext context)
   if (!own) return SPH_ERR_MEMORY;
   own->context = context;
   own->fresh = 1;
+  own->error[0] = own->error[1] = 1;
   own->memory = ERKStepCreate(rhs, it->time, it->y, context);
   if (!own->memory || sph_nvector_lost(it->y)) return SPH_ERR_MEMORY;
   own->listener = (sph_sundials_listener){.listen = listen, .ctx = own};
@@ -153,6 +177,7 @@ static int restart(sph_integrator *it)
   erk *own = it->own;
   own->fresh = 1;
   own->resume = 0;
+  own->error[0] = own->error[1] = 1;
   it->rhs_status = 0;
   return outcome(it, SPH_ERK(Reset)(own->memory, it->time, it->y));
 }
@@ -202,7 +227,10 @@ static int attempt(sph_integrator *it, sph_attempt *a, double t_stop)
   SPH_ERK(GetNumErrTestFails)(own->memory, &it->stats.rejected);
   if (a->h < a->limit * (1 - CLOSE))
     a->bound = flag == ARK_TSTOP_RETURN ? SPH_BOUND_STOP : SPH_BOUND_ERROR;
-  if (a->bound == SPH_BOUND_STOP && a->h < 0.2 * it->stats.dt_last) own->resume = it->stats.dt_last;
+  /* A controller that grows steps slowly should not see the one that was cut short. */
+  double short_step = sph_integrator_table_control(it->row) ? 0.9 : 0.2;
+  if (a->bound == SPH_BOUND_STOP && a->h < short_step * it->stats.dt_last)
+    own->resume = it->stats.dt_last;
   return a->bound != SPH_BOUND_STOP && a->h < it->def.dt_min
              ? sph_integrator_fail(it, SPH_ERR_STEP, "error control asks for less than dt_min")
              : SPH_OK;

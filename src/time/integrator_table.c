@@ -4,13 +4,22 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "integrator_data.h"
+#include "integrator_rdpk.h"
 #include "stability.h"
 
-/* The staggered leapfrog and the velocity Verlet scheme are one scheme in two notations: they
- * have one stepper (integrator_leapfrog.c). */
-static const sph_integrator_info own[] = {
-    {"leapfrog", 2, 1, 0, 0.72},
-    {"verlet", 2, 1, 0, 0.72},
+/* The staggered leapfrog and the velocity Verlet scheme are one scheme in two notations. */
+static const struct {
+  const char *name;
+  const sph_scheme *scheme;
+} own[] = {
+    {"leapfrog", &sph_integrator_leapfrog},
+    {"verlet", &sph_integrator_leapfrog},
+    {"dkd", &sph_integrator_dkd},
+    {"predictor-corrector", &sph_integrator_predictor_corrector},
+    {"midpoint", &sph_integrator_midpoint},
+    {"verlet-dual", &sph_integrator_verlet_dual},
+    {"symplectic", &sph_integrator_symplectic},
 };
 enum { OWN = sizeof own / sizeof *own };
 
@@ -23,22 +32,41 @@ static const struct {
 #undef X
 };
 
+/* S of the pairs in integrator_rdpk.c; 0: estimated. */
+static const double rdpk_stability[] = {0, 0, 0, 0};
+
 /* Those that this SUNDIALS has. */
-static int rows(void)
+static int arkode_rows(void)
 {
   int listed = sizeof erk / sizeof *erk, built = ARKODE_MAX_ERK_NUM + 1;
-  return OWN + (listed < built ? listed : built);
+  return listed < built ? listed : built;
 }
+
+/* Number of the pair in integrator_rdpk.c, < 0: another kind of row. */
+static int rdpk(int k) { return k - OWN - arkode_rows(); }
 
 const char *sph_integrator_table_name(int k)
 {
-  if (k < 0 || k >= rows()) return NULL;
+  if (k < 0) return NULL;
+  if (rdpk(k) >= 0) return sph_integrator_rdpk_name(rdpk(k));
   return k < OWN ? own[k].name : erk[k - OWN].name;
 }
 
-ARKODE_ERKTableID sph_integrator_table_erk(int k)
+const sph_scheme *sph_integrator_table_scheme(int k)
 {
-  return k < OWN ? ARKODE_ERK_NONE : (ARKODE_ERKTableID)(ARKODE_MIN_ERK_NUM + k - OWN);
+  return k >= 0 && k < OWN ? own[k].scheme : NULL;
+}
+
+ARKodeButcherTable sph_integrator_table_butcher(int k)
+{
+  if (k < OWN || !sph_integrator_table_name(k)) return NULL;
+  if (rdpk(k) >= 0) return sph_integrator_rdpk_table(rdpk(k));
+  return ARKodeButcherTable_LoadERK((ARKODE_ERKTableID)(ARKODE_MIN_ERK_NUM + k - OWN));
+}
+
+const double *sph_integrator_table_control(int k)
+{
+  return rdpk(k) >= 0 ? sph_integrator_rdpk_control(rdpk(k)) : NULL;
 }
 
 int sph_integrator_table_fsal(const struct ARKodeButcherTableMem *table)
@@ -49,20 +77,30 @@ int sph_integrator_table_fsal(const struct ARKodeButcherTableMem *table)
   return fabs(table->c[last] - 1) < 1e-14;
 }
 
+sph_integrator_info sph_integrator_table_scheme_info(const sph_scheme *scheme)
+{
+  return (sph_integrator_info){.name = scheme->name,
+                               .order = scheme->order,
+                               .stages = scheme->stages,
+                               .stability = scheme->stability};
+}
+
 int sph_integrator_table_info(int k, sph_integrator_info *info)
 {
   if (!sph_integrator_table_name(k)) return 0;
   if (k < OWN) {
-    *info = own[k];
+    *info = sph_integrator_table_scheme_info(own[k].scheme);
+    info->name = own[k].name;
     return 1;
   }
-  ARKodeButcherTable table = ARKodeButcherTable_LoadERK(sph_integrator_table_erk(k));
+  ARKodeButcherTable table = sph_integrator_table_butcher(k);
   if (!table) return 0;
-  *info = (sph_integrator_info){.name = erk[k - OWN].name,
+  *info = (sph_integrator_info){.name = sph_integrator_table_name(k),
                                 .order = table->q,
                                 .stages = table->stages - sph_integrator_table_fsal(table),
                                 .error_control = table->d != NULL && table->p > 0,
-                                .stability = erk[k - OWN].stability};
+                                .stability =
+                                    rdpk(k) < 0 ? erk[k - OWN].stability : rdpk_stability[rdpk(k)]};
   if (info->stability == 0)
     info->stability = sph_stability(table->stages, (const double *const *)table->A, table->b);
   ARKodeButcherTable_Free(table);
@@ -92,8 +130,8 @@ static int unknown(const char *name, sph_error *error)
 {
   char known[800] = "";
   const char *nearest = own[0].name;
-  for (int k = 0; k < rows(); k++) {
-    const char *row = sph_integrator_table_name(k);
+  const char *row;
+  for (int k = 0; (row = sph_integrator_table_name(k)); k++) {
     size_t used = strlen(known);
     snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", row);
     if (distance(name, row) < distance(name, nearest)) nearest = row;
@@ -107,7 +145,8 @@ static int unknown(const char *name, sph_error *error)
 int sph_integrator_table_find(const char *name, sph_error *error)
 {
   if (!name) name = "erk:bogacki-shampine-4-2-3";
-  for (int k = 0; k < rows(); k++)
-    if (!strcmp(name, sph_integrator_table_name(k))) return k;
+  const char *row;
+  for (int k = 0; (row = sph_integrator_table_name(k)); k++)
+    if (!strcmp(name, row)) return k;
   return unknown(name, error);
 }

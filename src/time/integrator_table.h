@@ -8,8 +8,14 @@
 const char *sph_integrator_table_name(int k);
 /* Row of that name (NULL: the default), or -1: recorded, with the known names and the nearest. */
 int sph_integrator_table_find(const char *name, sph_error *error);
-/* ARKODE's number of row k; ARKODE_ERK_NONE for our own. */
-ARKODE_ERKTableID sph_integrator_table_erk(int k);
+/* The scheme of row k if it is our own, else NULL. */
+const sph_scheme *sph_integrator_table_scheme(int k);
+/* What a scheme says of itself. */
+sph_integrator_info sph_integrator_table_scheme_info(const sph_scheme *scheme);
+/* The Butcher table of row k, owned by the caller; NULL: our own scheme, or out of memory. */
+ARKodeButcherTable sph_integrator_table_butcher(int k);
+/* Exponents of its step size controller, [3]; NULL: the integral one. */
+const double *sph_integrator_table_control(int k);
 /* What row k is; 0 if it is no row, or without memory for its Butcher table. */
 int sph_integrator_table_info(int k, sph_integrator_info *info);
 /* Is the last stage of that table the next step's first? */

@@ -18,6 +18,7 @@ typedef struct sph_step_limit {
 typedef struct sph_problem {
   void *ctx;
   int threads;
+  int drift; /* dr/dt is not v: what f says of positions counts, also in second-order schemes */
   int (*rhs)(double t, N_Vector y, N_Vector ydot, void *ctx); /* counts itself nothing */
   int (*weights)(N_Vector y, N_Vector weight,
                  void *ctx); /* 1 / scale of each entry (tolerance 1); must be > 0 */

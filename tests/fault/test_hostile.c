@@ -254,6 +254,35 @@ static void refused_integrator(sph_integrator_def def, const char *word, const c
   sph_sim_free(s.sim);
 }
 
+static int no_step(void *ctx, sph_ode *ode)
+{
+  (void)ctx, (void)ode;
+  return SPH_OK;
+}
+
+static void own_integrators(void **state)
+{
+  (void)state;
+  const sph_scheme good = {
+      .name = "mine", .order = 1, .stages = 1, .stability = 1, .step = no_step};
+  sph_scheme s = good;
+  refused_integrator((sph_integrator_def){.own = &s, .method = "dkd"}, "method", "both");
+  refused_integrator((sph_integrator_def){.own = &(sph_scheme){0}}, "name", "all zero");
+  s.name = "midpoint";
+  refused_integrator((sph_integrator_def){.own = &s}, "midpoint", "a known name");
+  s = good;
+  s.step = NULL;
+  refused_integrator((sph_integrator_def){.own = &s}, "step", "no step");
+  s = good;
+  for (int k = 0; k < BAD; k++) {
+    s.stability = bad[k];
+    refused_integrator((sph_integrator_def){.own = &s}, bad_text[k], "stability");
+  }
+  s = good;
+  s.work = 17;
+  refused_integrator((sph_integrator_def){.own = &s}, "17", "work");
+}
+
 static void integrators(void **state)
 {
   (void)state;
@@ -490,12 +519,19 @@ static void null_simulation(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(create),          cmocka_unit_test(groups),
-      cmocka_unit_test(no_pointers),     cmocka_unit_test(materials),
-      cmocka_unit_test(terms),           cmocka_unit_test(integrators),
-      cmocka_unit_test(unfinished),      cmocka_unit_test(outputs_and_times),
-      cmocka_unit_test(after_the_start), cmocka_unit_test(wrong_kind),
-      cmocka_unit_test(bad_states),      cmocka_unit_test(callbacks),
+      cmocka_unit_test(create),
+      cmocka_unit_test(groups),
+      cmocka_unit_test(no_pointers),
+      cmocka_unit_test(materials),
+      cmocka_unit_test(terms),
+      cmocka_unit_test(integrators),
+      cmocka_unit_test(own_integrators),
+      cmocka_unit_test(unfinished),
+      cmocka_unit_test(outputs_and_times),
+      cmocka_unit_test(after_the_start),
+      cmocka_unit_test(wrong_kind),
+      cmocka_unit_test(bad_states),
+      cmocka_unit_test(callbacks),
       cmocka_unit_test(null_simulation),
   };
   return cmocka_run_group_tests_name("hostile input", tests, NULL, NULL);

@@ -52,14 +52,34 @@ static int run(const sph_integrator_def *def)
   return status;
 }
 
+static int heun(void *ctx, sph_ode *o)
+{
+  (void)ctx;
+  for (long i = 0; i < o->n; i++) o->y[i] = o->y0[i] + o->h * o->f0[i];
+  int status = sph_ode_rhs(o, o->t1, o->y, o->work[1]);
+  for (long i = 0; !status && i < o->n; i++)
+    o->y[i] = o->y0[i] + o->h / 2 * (o->f0[i] + o->work[1][i]);
+  return status;
+}
+
 static void each_allocation_fails_once(void **state)
 {
+  static const sph_scheme own = {
+      .name = "own", .order = 2, .stages = 2, .stability = 1, .work = 2, .step = heun};
   static const sph_integrator_def def[] = {{.method = "leapfrog", .dt_max = 0.05},
+                                           {.method = "dkd", .dt_max = 0.05},
+                                           {.method = "predictor-corrector", .dt_max = 0.05},
+                                           {.method = "midpoint", .dt_max = 0.05},
+                                           {.method = "symplectic", .dt_max = 0.05},
+                                           {.method = "verlet-dual", .dt_max = 0.05},
+                                           {.own = &own, .dt_max = 0.05},
                                            {.dt_max = 0.05},
                                            {.tolerance = -1, .dt_max = 0.05},
-                                           {.method = "erk:zonneveld-5-3-4"}};
+                                           {.method = "erk:zonneveld-5-3-4"},
+                                           {.method = "erk:rdpk3sp35-5-2-3"},
+                                           {.method = "erk:rdpk3spfsal49-10-3-4", .dt_max = 0.05}};
   (void)state;
-  for (int k = 0; k < 4; k++) {
+  for (size_t k = 0; k < sizeof def / sizeof *def; k++) {
     fail_at = calls = 0;
     assert_int_equal(run(&def[k]), SPH_OK);
     long all = calls;

@@ -32,6 +32,7 @@ static void kepler_exact(double t, double *y)
 {
   (void)t; /* whole periods */
   memset(y, 0, ODE_LENGTH * sizeof *y);
+  y[ODE_Q] = 1;
   y[ODE_X] = 0.7;
   y[ODE_V] = sqrt(1.3 / 0.7);
 }
@@ -61,9 +62,33 @@ static int made(double t, N_Vector state, N_Vector rate, void *ctx)
   return broken(ctx);
 }
 
+static void drift_exact(double t, double *y)
+{
+  made_exact(t, y);
+  y[ODE_U] -= 0.3 * cos(2 * t);
+  y[ODE_V] -= 0.2 * sin(3 * t);
+}
+
+static int drift(double t, N_Vector state, N_Vector rate, void *ctx)
+{
+  const double *y = sph_nvector_data(state);
+  double *f = sph_nvector_data(rate), e[ODE_LENGTH];
+  drift_exact(t, e);
+  double mix = y[ODE_Y] * y[ODE_Q] - e[ODE_Y] * e[ODE_Q];
+  double turn = y[ODE_U] * y[ODE_X] - e[ODE_U] * e[ODE_X];
+  f[ODE_X] = y[ODE_U] + 0.3 * cos(2 * t) + 0.4 * mix;
+  f[ODE_Y] = y[ODE_V] + 0.2 * sin(3 * t) + 0.5 * turn;
+  f[ODE_U] = -sin(t) + 0.6 * sin(2 * t) - (y[ODE_X] - e[ODE_X]) - 0.3 * mix * y[ODE_U];
+  f[ODE_V] = -cos(t) - 0.6 * cos(3 * t) - (y[ODE_Y] - e[ODE_Y]) + 0.5 * turn;
+  f[ODE_Q] = 2 * cos(2 * t) + (e[ODE_Q] - y[ODE_Q]) * (1 + y[ODE_X] * y[ODE_V]) +
+             0.5 * (y[ODE_V] - e[ODE_V]);
+  return broken(ctx);
+}
+
 static void oscillator_exact(double t, double *y)
 {
   memset(y, 0, ODE_LENGTH * sizeof *y);
+  y[ODE_Q] = 1;
   y[ODE_X] = cos(t);
   y[ODE_U] = -sin(t);
 }
@@ -76,6 +101,19 @@ static int oscillator(double t, N_Vector state, N_Vector rate, void *ctx)
   N_VConst(0, rate);
   f[ODE_X] = y[ODE_U];
   f[ODE_U] = -y[ODE_X];
+  return broken(ctx);
+}
+
+static void decay_exact(double t, double *y)
+{
+  memset(y, 0, ODE_LENGTH * sizeof *y);
+  y[ODE_Q] = exp(-t);
+}
+
+static int decay(double t, N_Vector y, N_Vector rate, void *ctx)
+{
+  (void)t;
+  N_VScale(-1, y, rate);
   return broken(ctx);
 }
 
@@ -113,7 +151,7 @@ static void make(ode *o)
                                   .capacity = 8,
                                   .role = k < 2   ? SPH_ROLE_POSITION
                                           : k < 4 ? SPH_ROLE_VELOCITY
-                                                  : SPH_ROLE_OTHER,
+                                                  : SPH_ROLE_DENSITY,
                                   .partner = k < 2 ? k + 2 : -1};
   o->layout = (sph_layout){ODE_LENGTH, 5, 5, o->segment};
   o->context = sph_sundials_context(&o->error);
@@ -141,11 +179,27 @@ void ode_made(ode *o)
   o->exact = made_exact;
 }
 
+void ode_drift(ode *o)
+{
+  make(o);
+  o->segment[4].role = SPH_ROLE_OTHER;
+  o->problem.drift = 1;
+  o->problem.rhs = drift;
+  o->exact = drift_exact;
+}
+
 void ode_oscillator(ode *o)
 {
   make(o);
   o->problem.rhs = oscillator;
   o->exact = oscillator_exact;
+}
+
+void ode_decay(ode *o)
+{
+  make(o);
+  o->problem.rhs = decay;
+  o->exact = decay_exact;
 }
 
 void ode_start(ode *o, const sph_integrator_def *def)

@@ -28,8 +28,12 @@ typedef struct ode {
 void ode_kepler(ode *o);
 /* x'' with forces of velocity and of q, made so that x = sin t, y = cos t, q = 2 + sin 2t. */
 void ode_made(ode *o);
-/* x = cos t, all else but its velocity zero. */
+/* The same x, y, q with other velocities: dr/dt = v + d(t, r, v, q); q is no density here. */
+void ode_drift(ode *o);
+/* x = cos t, q = 1, all else but the velocity of x zero. */
 void ode_oscillator(ode *o);
+/* q = exp(-t), all else zero. */
+void ode_decay(ode *o);
 /* Creates the integrator at t = 0; fails the test if it cannot. */
 void ode_start(ode *o, const sph_integrator_def *def);
 /* Steps to t; returns the status. */

@@ -7,12 +7,14 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <complex.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "integrator_table.h"
 #include "ode.h"
 #include "stability.h"
 
@@ -20,15 +22,20 @@ static const double TURN = 6.283185307179586;
 
 typedef void (*problem)(ode *o);
 
+/* One of each kind of stepping, for what does not depend on the formulas. */
+static const char *const method[] = {"leapfrog", NULL,          "erk:zonneveld-5-3-4", "symplectic",
+                                     "dkd",      "verlet-dual", "erk:rdpk3sp35-5-2-3"};
+enum { METHODS = sizeof method / sizeof *method };
+
 /* Largest error at `stops` times up to t_end, with n steps between them. */
-static double error_of(problem make, const char *method, double t_end, int stops, int n)
+static double error_of(problem make, const char *name, double t_end, int stops, int n)
 {
   ode o;
   double most = 0;
   make(&o);
-  ode_start(&o, &(sph_integrator_def){.method = method, .dt_fixed = t_end / (stops * n)});
+  ode_start(&o, &(sph_integrator_def){.method = name, .dt_fixed = t_end / (stops * n)});
   for (int k = 1; k <= stops; k++) {
-    if (ode_run(&o, k * t_end / stops)) fail_msg("%s: %s", method, o.error.text);
+    if (ode_run(&o, k * t_end / stops)) fail_msg("%s: %s", name, o.error.text);
     most = fmax(most, ode_error(&o, k * t_end / stops, o.y));
   }
   assert_int_equal(sph_integrator_stats(o.it)->steps, stops * n);
@@ -60,8 +67,11 @@ static void every_scheme_has_its_order(void **state)
   sph_integrator_info info;
   for (int k = 0; sph_integrator_info_get(k, &info); k++) {
     assert_in_range(info.order, 1, 9);
-    if (info.order <= 4) assert_order(ode_kepler, &info, TURN, 1, info.order == 1 ? 16384 : 2048);
-    assert_order(ode_made, &info, 4, 8, 256);
+    /* forward-euler, and its steps in verlet-dual, need small ones */
+    int more = info.order == 1 || !strcmp(info.name, "verlet-dual") ? 8 : 1;
+    if (info.order <= 4) assert_order(ode_kepler, &info, TURN, 1, more * 2048);
+    assert_order(ode_made, &info, 4, 8, more * 256);
+    assert_order(ode_drift, &info, 4, 8, more * 256);
   }
 }
 
@@ -99,12 +109,12 @@ static void stability_of_euler(void **state)
 }
 
 /* Largest error of the state inside the steps. */
-static double dense_error(const char *method, int n)
+static double dense_error(problem make, const char *name, int n)
 {
   ode o;
   double most = 0;
-  ode_made(&o);
-  ode_start(&o, &(sph_integrator_def){.method = method, .dt_fixed = 2.0 / n});
+  make(&o);
+  ode_start(&o, &(sph_integrator_def){.method = name, .dt_fixed = 2.0 / n});
   N_Vector at = N_VClone(o.y);
   while (sph_integrator_time(o.it) < 2) {
     assert_int_equal(sph_integrator_step(o.it, 2), SPH_OK);
@@ -125,11 +135,17 @@ static void dense_output_keeps_the_order(void **state)
   static const struct {
     const char *method;
     double order;
-  } row[] = {{"leapfrog", 2}, {"erk:bogacki-shampine-4-2-3", 3}, {"erk:dormand-prince-7-4-5", 4}};
+  } row[] = {{"leapfrog", 2},    {"dkd", 2},
+             {"midpoint", 2},    {"predictor-corrector", 2},
+             {"symplectic", 2},  {"erk:bogacki-shampine-4-2-3", 3},
+             {"verlet-dual", 2}, {"erk:dormand-prince-7-4-5", 4}};
   (void)state;
-  for (int k = 0; k < 3; k++) {
-    double order = log2(dense_error(row[k].method, 80) / dense_error(row[k].method, 160));
-    if (!(order > row[k].order - 0.1)) fail_msg("%s: dense order %.2f", row[k].method, order);
+  for (size_t k = 0; k < 2 * sizeof row / sizeof *row; k++) {
+    problem make = k % 2 ? ode_drift : ode_made;
+    const char *name = row[k / 2].method;
+    int n = strcmp(name, "verlet-dual") ? 80 : 1280;
+    double order = log2(dense_error(make, name, n) / dense_error(make, name, 2 * n));
+    if (!(order > row[k / 2].order - 0.1)) fail_msg("%s: dense order %.2f", name, order);
   }
 }
 
@@ -152,11 +168,32 @@ static void leapfrog_keeps_the_energy(void **state)
   ode_end(&o);
 }
 
+/* y' = -y, one evaluation a step: the two-step formula grows by sqrt(1 + h^2) + h a step in its
+ * second solution, (-1)^n, which an Euler step every 40 cuts back. */
+static void verlet_dual_forgets_every_40_steps(void **state)
+{
+  (void)state;
+  ode o;
+  ode_decay(&o);
+  ode_start(&o, &(sph_integrator_def){.method = "verlet-dual", .dt_fixed = 0.1});
+  double gap[2] = {0, 0}, last = 0;
+  for (int n = 1; n <= 41; n++) {
+    assert_int_equal(sph_integrator_step(o.it, 100), SPH_OK);
+    double error = sph_nvector_data(o.y)[ODE_Q] - exp(-0.1 * n);
+    if (n == 40) gap[0] = fabs(error - last);
+    if (n == 41) gap[1] = fabs(error - last);
+    last = error;
+  }
+  double growth = sqrt(1 + 0.1 * 0.1) + 0.1, seed = 0.1 * 0.1 / 2;
+  assert_true(gap[0] > 0.2 * seed * pow(growth, 40) && gap[0] < 2 * seed * pow(growth, 40));
+  assert_true(gap[1] < 0.2 * gap[0]);
+  ode_end(&o);
+}
+
 static void stop_times_are_exact(void **state)
 {
-  static const char *const method[] = {"leapfrog", NULL, "erk:zonneveld-5-3-4"};
   (void)state;
-  for (int k = 0; k < 6; k++) {
+  for (int k = 0; k < 2 * METHODS; k++) {
     ode o;
     ode_made(&o);
     o.limit[SPH_BOUND_CFL] = 0.1;
@@ -223,6 +260,24 @@ static void error_control_holds_the_tolerance(void **state)
                      0.05); /* steps ~ tolerance^(-1/3) */
 }
 
+/* |sum_k (ih)^k (b - d)^T A^(k-1) 1| */
+static double estimate_of(ARKodeButcherTable t, double h)
+{
+  double complex sum = 0, z = 1;
+  double v[32], next[32];
+  for (int i = 0; i < t->stages; i++) v[i] = 1;
+  for (int k = 1; k <= t->stages; k++) {
+    z *= I * h;
+    for (int i = 0; i < t->stages; i++) {
+      sum += z * (t->b[i] - t->d[i]) * v[i];
+      next[i] = 0;
+      for (int j = 0; j < t->stages; j++) next[i] += t->A[i][j] * v[j];
+    }
+    memcpy(v, next, sizeof v);
+  }
+  return cabs(sum);
+}
+
 /* The estimate of Bogacki & Shampine (1989) for y' = z/h y is y (z^3 + z^4)/48, so that for the
  * oscillator its rms over five entries is h^3 sqrt(1 + h^2)/(48 sqrt 5); the controller settles
  * at 0.9^3 of the tolerance. */
@@ -242,6 +297,36 @@ static void the_step_size_settles_where_it_should(void **state)
     if (k > 20) assert_float_equal(estimate / tolerance, 0.9 * 0.9 * 0.9, 0.01);
   }
   ode_end(&o);
+}
+
+/* The same for the controllers with memory: 0.9 (1 + arctan(x - 1)) = 1 with x = e^(-sum beta/p)
+ * where the estimate e, |R(ih) - Rhat(ih)| of the oscillator, stays. */
+static void controllers_with_memory_settle(void **state)
+{
+  static const struct {
+    const char *method;
+    double beta;
+  } row[] = {{"erk:rdpk3sp35-5-2-3", 0.64 - 0.31 + 0.04},
+             {"erk:rdpk3sp49-9-3-4", 0.25 - 0.12},
+             {"erk:rdpk3spfsal35-6-2-3", 0.70 - 0.23},
+             {"erk:rdpk3spfsal49-10-3-4", 0.38 - 0.18 + 0.01}};
+  const double tolerance = 1e-6, x = 1 + tan(1 / 0.9 - 1);
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    ode o;
+    ode_oscillator(&o);
+    o.problem.limits = NULL;
+    ode_start(&o, &(sph_integrator_def){.method = row[k].method, .tolerance = tolerance});
+    ARKodeButcherTable t =
+        sph_integrator_table_butcher(sph_integrator_table_find(row[k].method, NULL));
+    for (int n = 0; n < 400; n++) {
+      assert_int_equal(sph_integrator_step(o.it, 1000), SPH_OK);
+      double e = estimate_of(t, sph_integrator_stats(o.it)->dt_last) / sqrt(5) / tolerance;
+      if (n > 300) assert_float_equal(e / pow(x, -t->q / row[k].beta), 1, 0.01);
+    }
+    ARKodeButcherTable_Free(t);
+    ode_end(&o);
+  }
 }
 
 static void fixed_largest_and_smallest_steps(void **state)
@@ -272,9 +357,8 @@ static void fixed_largest_and_smallest_steps(void **state)
 /* A rate that cannot be had at one moment costs one retry and nothing else. */
 static void a_failed_evaluation_is_repeated(void **state)
 {
-  static const char *const method[] = {"leapfrog", NULL, "erk:zonneveld-5-3-4"};
   (void)state;
-  for (int k = 0; k < 6; k++) {
+  for (int k = 0; k < 2 * METHODS; k++) {
     ode o;
     ode_made(&o);
     o.limit[SPH_BOUND_CFL] = 0.01;
@@ -315,13 +399,12 @@ static void lasting_failure_stops_at_the_last_good_state(void **state)
 static void inadmissible_states_are_stepped_anew(void **state)
 {
   (void)state;
-  for (int k = 0; k < 3; k++) {
+  for (int k = 0; k < 2 * METHODS; k++) {
     ode o;
     ode_made(&o);
     o.limit[SPH_BOUND_USER] = 0.04;
     o.reject_above = 0.021;
-    ode_start(&o,
-              &(sph_integrator_def){.method = k ? NULL : "leapfrog", .tolerance = k == 2 ? -1 : 0});
+    ode_start(&o, &(sph_integrator_def){.method = method[k / 2], .tolerance = k % 2 ? -1 : 0});
     assert_int_equal(ode_run(&o, 1), SPH_OK);
     const sph_step_stats *stats = sph_integrator_stats(o.it);
     assert_true(stats->retries > 10 && stats->dt_largest <= 0.021);
@@ -335,12 +418,14 @@ static void inadmissible_states_are_stepped_anew(void **state)
 static void reset_is_a_new_start(void **state)
 {
   (void)state;
-  for (int k = 0; k < 3; k++) {
-    const sph_integrator_def def = {.method = k ? NULL : "leapfrog", .tolerance = k == 2 ? -1 : 0};
+  for (int k = 0; k < 2 * METHODS; k++) {
+    int control = k == 2 * (METHODS - 1); /* errors, not limits, bind: the controller's memory */
+    const sph_integrator_def def = {.method = method[k / 2],
+                                    .tolerance = k % 2 ? -1 : control * 1e-6};
     ode o, fresh;
     ode_made(&o);
     ode_made(&fresh);
-    o.limit[SPH_BOUND_CFL] = fresh.limit[SPH_BOUND_CFL] = 0.02;
+    o.limit[SPH_BOUND_CFL] = fresh.limit[SPH_BOUND_CFL] = control ? 1 : 0.02;
     ode_start(&o, &def);
     ode_start(&fresh, &def);
     assert_int_equal(ode_run(&o, 0.5), SPH_OK);
@@ -455,10 +540,12 @@ int main(void)
       cmocka_unit_test(stability_of_euler),
       cmocka_unit_test(dense_output_keeps_the_order),
       cmocka_unit_test(leapfrog_keeps_the_energy),
+      cmocka_unit_test(verlet_dual_forgets_every_40_steps),
       cmocka_unit_test(stop_times_are_exact),
       cmocka_unit_test(limits_bind_and_are_recorded),
       cmocka_unit_test(error_control_holds_the_tolerance),
       cmocka_unit_test(the_step_size_settles_where_it_should),
+      cmocka_unit_test(controllers_with_memory_settle),
       cmocka_unit_test(fixed_largest_and_smallest_steps),
       cmocka_unit_test(a_failed_evaluation_is_repeated),
       cmocka_unit_test(lasting_failure_stops_at_the_last_good_state),
