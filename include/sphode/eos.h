@@ -26,7 +26,7 @@ struct sph_eos {
   int thermal;         /* 1: p depends on the internal energy u, which is then integrated */
   /* Called from several threads at once, on different particles: read ctx, do not write to it.
    * p[n] [Pa] and c[n] [m/s] of rho[n] [kg/m^3] > 0 and u[n] [J/kg] (u is NULL unless thermal).
-   * c = NaN says that there is no such state: the step is then tried again, smaller. */
+   * c = NaN (or infinite) says that there is no such state: the step is then tried again, smaller. */
   void (*pressure)(const sph_eos *eos, long n, const double *rho, const double *u, double *p,
                    double *c);
   /* rho [kg/m^3] at pressure p [Pa] for internal energy u [J/kg] (not read unless thermal); NaN or
@@ -71,8 +71,9 @@ SPH_API sph_eos sph_eos_polytropic(double rho0, double K, double gamma);
 SPH_API sph_eos sph_eos_ideal_gas(double gamma);
 SPH_API sph_eos sph_eos_ideal_gas_molar(double gamma, double M);
 /* Stiffened gas: p = (gamma - 1) rho (u - q) - gamma p_inf, c^2 = gamma (p + p_inf)/rho,
- * c_v T = u - q - p_inf/rho. */
-SPH_API sph_eos sph_eos_stiffened_gas(double gamma, double p_inf, double q);
+ * c_v T = u - q - p_inf/rho.  rho0 gives c0, that at p = 0, which delta and the scales of errors
+ * use. */
+SPH_API sph_eos sph_eos_stiffened_gas(double rho0, double gamma, double p_inf, double q);
 /* Mie-Grueneisen from the shock speed c0 + s u_p, Gamma rho = Gamma0 rho0, chi = 1 - rho0/rho:
  *   chi >= 0: p = p_H (1 - Gamma0 chi/2) + Gamma0 rho0 u, p_H = rho0 c0^2 chi/(1 - s chi)^2
  *   chi < 0:  p = c0^2 (rho - rho0) + Gamma0 rho0 u

@@ -15,7 +15,20 @@ static const struct {
      sph_eos_tait_check},
     {"linear", "p = max(c0^2 (rho - rho0) + p_b, p_min), c = c0, 0 on the cut",
      sph_eos_linear_check},
-    {"ideal-gas", "p = (gamma - 1) rho u, c^2 = gamma (gamma - 1) u", sph_eos_ideal_gas_check},
+    {"murnaghan", "p = (K0/n) [(rho/rho0)^n - 1] + p_b, c^2 = (K0/rho0) (rho/rho0)^(n-1)",
+     sph_eos_murnaghan_check},
+    {"isothermal", "p = c0^2 rho, c = c0", sph_eos_isothermal_check},
+    {"polytropic", "p = K rho^gamma, c^2 = gamma p/rho", sph_eos_polytropic_check},
+    {"ideal-gas", "p = (gamma - 1) rho u, c^2 = gamma (gamma - 1) u, c_v T = u",
+     sph_eos_ideal_gas_check},
+    {"stiffened-gas",
+     "p = (gamma - 1) rho (u - q) - gamma p_inf, c^2 = gamma (p + p_inf)/rho, "
+     "c_v T = u - q - p_inf/rho",
+     sph_eos_stiffened_gas_check},
+    {"mie-grueneisen",
+     "p = rho0 c0^2 chi (1 - Gamma0 chi/2)/(1 - s chi)^2 + Gamma0 rho0 u, chi = 1 - rho0/rho; "
+     "chi < 0: c0^2 (rho - rho0) + Gamma0 rho0 u",
+     sph_eos_mie_grueneisen_check},
 };
 enum { ROWS = sizeof table / sizeof table[0] };
 
@@ -78,6 +91,19 @@ void sph_eos_thermal_pressure(const sph_eos *eos, long n, const double *rho, con
   }
 }
 
+long sph_eos_find_bad(const sph_eos *eos, long n, const double *rho, const double *u)
+{
+  enum { CHUNK = 256 };
+  double p[CHUNK], c[CHUNK];
+  for (long i = 0; i < n; i += CHUNK) {
+    long some = n - i < CHUNK ? n - i : CHUNK;
+    eos->pressure(eos, some, rho + i, u ? u + i : NULL, p, c);
+    for (long k = 0; k < some; k++)
+      if (!(c[k] < INFINITY)) return i + k;
+  }
+  return -1;
+}
+
 static int check_positive(const sph_eos *eos, const char *what, double value, const char *unit,
                           sph_error *error)
 {
@@ -86,11 +112,27 @@ static int check_positive(const sph_eos *eos, const char *what, double value, co
                        eos->name, what, value, unit);
 }
 
+int sph_eos_check_reference(const sph_eos *eos, sph_error *error)
+{
+  int status = check_positive(eos, "rho0", eos->rho0, "kg/m^3", error);
+  return status ? status : check_positive(eos, "c0", eos->c0, "m/s", error);
+}
+
+int sph_eos_check_thermal(const sph_eos *eos, sph_error *error)
+{
+  if (!eos->thermal)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "eos %s: thermal = 0 must be 1", eos->name);
+  if (eos->p_background == 0 && !(eos->p_min > 0)) return SPH_OK;
+  return sph_error_set(error, SPH_ERR_ARGUMENT,
+                       "eos %s: p_background = %g Pa, p_min = %g Pa are not used: leave them 0 and "
+                       "-INFINITY",
+                       eos->name, eos->p_background, eos->p_min);
+}
+
 /* Barotropic: walls and starts need rho(p), step limits and error weights c0 at rho0. */
 static int check_barotropic(const sph_eos *eos, sph_error *error)
 {
-  int status = check_positive(eos, "rho0", eos->rho0, "kg/m^3", error);
-  if (!status) status = check_positive(eos, "c0", eos->c0, "m/s", error);
+  int status = sph_eos_check_reference(eos, error);
   if (!status && !isfinite(eos->p_background))
     status = sph_error_set(error, SPH_ERR_ARGUMENT, "eos %s: p_background = %g Pa must be finite",
                            eos->name, eos->p_background);
@@ -102,7 +144,7 @@ int sph_eos_check(const sph_eos *eos, sph_error *error)
   if (!eos || !eos->name || !eos->name[0])
     return sph_error_set(error, SPH_ERR_ARGUMENT,
                          "eos: has no name; the built-in ones come from "
-                         "sph_eos_tait, sph_eos_linear, sph_eos_ideal_gas");
+                         "sph_eos_tait, sph_eos_ideal_gas and their neighbours");
   if (!eos->pressure || !eos->density)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "eos %s: function %s is NULL; it is required",
                          eos->name, eos->pressure ? "density" : "pressure");

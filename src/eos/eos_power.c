@@ -31,3 +31,12 @@ double sph_eos_power_elastic_energy(const sph_eos *eos, double gamma, double rho
   if (!(rho < rho_cut)) return uncut_energy(eos, gamma, rho);
   return uncut_energy(eos, gamma, rho_cut) + eos->p_min * (1 / rho_cut - 1 / rho);
 }
+
+int sph_eos_power_check_gas(const sph_eos *eos, double p0, sph_error *error)
+{
+  if (fabs(eos->p_background - p0) <= 1e-12 * p0 && !(eos->p_min > 0)) return SPH_OK;
+  return sph_error_set(error, SPH_ERR_ARGUMENT,
+                       "eos %s: p_background = %g Pa, p_min = %g Pa are not used: leave them %g (p "
+                       "at rho0) and -INFINITY",
+                       eos->name, eos->p_background, eos->p_min, p0);
+}

@@ -12,7 +12,21 @@ int sph_eos_check(const sph_eos *eos, sph_error *error);
 /* What the built-in ones ask for beyond that. */
 int sph_eos_tait_check(const sph_eos *eos, sph_error *error);
 int sph_eos_linear_check(const sph_eos *eos, sph_error *error);
+int sph_eos_murnaghan_check(const sph_eos *eos, sph_error *error);
+int sph_eos_isothermal_check(const sph_eos *eos, sph_error *error);
+int sph_eos_polytropic_check(const sph_eos *eos, sph_error *error);
 int sph_eos_ideal_gas_check(const sph_eos *eos, sph_error *error);
+int sph_eos_stiffened_gas_check(const sph_eos *eos, sph_error *error);
+int sph_eos_mie_grueneisen_check(const sph_eos *eos, sph_error *error);
+
+/* ... and what several of them share: rho0, c0 positive; thermal, without p_background and p_min;
+ * gases whose pressure at rho0 is p0. */
+int sph_eos_check_reference(const sph_eos *eos, sph_error *error);
+int sph_eos_check_thermal(const sph_eos *eos, sph_error *error);
+int sph_eos_power_check_gas(const sph_eos *eos, double p0, sph_error *error);
+
+/* Index of the first of n states that does not exist (c NaN or infinite), -1: none; u as for pressure. */
+long sph_eos_find_bad(const sph_eos *eos, long n, const double *rho, const double *u);
 
 /* Of p - p_b = (rho0 c0^2/gamma) [(rho/rho0)^gamma - 1], gamma >= 1 (the linear one: 1). */
 double sph_eos_power_density(const sph_eos *eos, double gamma, double p);          /* [kg/m^3] */

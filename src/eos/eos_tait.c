@@ -69,6 +69,16 @@ sph_eos sph_eos_tait(double rho0, double c0, double gamma)
                    .elastic_energy = elastic_energy};
 }
 
+sph_eos sph_eos_tait_matched(const sph_eos *other, double rho0, double gamma)
+{
+  double c0 = NAN;
+  if (other && !other->thermal && other->gamma > 0)
+    c0 = other->c0 * sqrt(other->rho0 / rho0 * (gamma / other->gamma));
+  sph_eos eos = sph_eos_tait(rho0, c0, gamma);
+  if (other) eos.p_background = other->p_background;
+  return eos;
+}
+
 int sph_eos_tait_check(const sph_eos *eos, sph_error *error)
 {
   if (eos->gamma >= 1 && isfinite(eos->gamma)) return SPH_OK;

@@ -1,6 +1,7 @@
-/* Initial density and pressure of a group. */
+/* Initial density and pressure of a group, and its material. */
 #include <math.h>
 
+#include "material_table.h"
 #include "sim_data.h"
 
 static int ready(const sph_group *group, const char *what)
@@ -26,9 +27,11 @@ static void set_density(sph_group *group, long i, double rho)
   group->own[SPH_DENSITY][0][i] = rho;
 }
 
-/* Internal energy that gives pressure p at density rho: rho(p, u) = rho, by bisection in log u. */
+/* Internal energy that gives pressure p at density rho; without energy_at rho(p, u) = rho, by
+ * bisection in log u. */
 static double energy_of(const sph_eos *eos, double p, double rho)
 {
+  if (eos->energy_at) return eos->energy_at(eos, rho, p);
   double low = -100, high = 100; /* ln u */
   for (int k = 0; k < 200; k++) {
     double middle = 0.5 * (low + high);
@@ -38,6 +41,16 @@ static double energy_of(const sph_eos *eos, double p, double rho)
       high = middle;
   }
   return exp(0.5 * (low + high));
+}
+
+/* Is (rho, u) a state, and one with pressure p? */
+static int has_pressure(const sph_eos *eos, double rho, double u, double p)
+{
+  double found, c;
+  if (!isfinite(p) || !(isfinite(rho) && rho > 0)) return 0;
+  eos->pressure(eos, 1, &rho, eos->thermal ? &u : NULL, &found, &c);
+  if (!eos->thermal) return !isnan(c);
+  return fabs(found - p) <= 1e-6 * (fabs(p) + rho * c * c); /* NaN: no */
 }
 
 void sph_group_set_pressure(sph_group *group, const double *p)
@@ -51,7 +64,7 @@ void sph_group_set_pressure(sph_group *group, const double *p)
     double rho = group->own[SPH_DENSITY][0][i];
     double u = group->eos.thermal ? energy_of(&group->eos, p[i], rho) : 0;
     if (!group->eos.thermal) rho = group->eos.density(&group->eos, p[i], 0);
-    if (!isfinite(p[i]) || !(isfinite(rho) && rho > 0) || (group->eos.thermal && !(p[i] > 0))) {
+    if (!has_pressure(&group->eos, rho, u, p[i])) {
       sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
                    "group %s, particle %ld: no state of equation of state %s has p = %g Pa",
                    group->name, i, group->eos.name, p[i]);
@@ -119,4 +132,17 @@ void sph_group_set_temperature(sph_group *group, const double *T)
       return;
     }
   sph_eos_energy(&group->eos, group->n, group->own[SPH_DENSITY][0], T, group->own[SPH_ENERGY][0]);
+}
+
+void sph_group_set_material(sph_group *group, sph_material material)
+{
+  if (!group) {
+    if (material.eos.free) material.eos.free(material.eos.ctx);
+    return;
+  }
+  if (!material.eos.name && sph_sim_data_ok(group->sim))
+    sph_material_explain(&material, &group->sim->error);
+  sph_group_set_eos(group, material.eos);
+  sph_group_set_viscosity(group, material.viscosity);
+  sph_group_set_conductivity(group, material.conductivity);
 }

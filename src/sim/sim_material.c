@@ -28,13 +28,17 @@ int sph_sim_material_eos(sph_evaluation *e)
       return sph_sim_admit_retry(sim, "%s: density of %ld particles is not positive", group->name,
                                  bad);
     sph_sim_energy_internal(sim, group, view);
-    if (group->eos.thermal && (bad = not_positive(view->u, n, sim->threads)))
-      return sph_sim_admit_retry(sim, "%s: internal energy of %ld particles is not positive",
-                                 group->name, bad);
-#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
-    for (long i = 0; i < n; i += CHUNK)
-      group->eos.pressure(&group->eos, n - i < CHUNK ? n - i : CHUNK, view->rho + i,
-                          view->u ? view->u + i : NULL, view->p + i, view->c + i);
+#pragma omp parallel for num_threads(sim->threads) schedule(static) reduction(+ : bad)             \
+    if (n > PARALLEL_MIN)
+    for (long i = 0; i < n; i += CHUNK) {
+      long some = n - i < CHUNK ? n - i : CHUNK;
+      group->eos.pressure(&group->eos, some, view->rho + i, group->eos.thermal ? view->u + i : NULL,
+                          view->p + i, view->c + i);
+      for (long k = i; k < i + some; k++) bad += !(view->c[k] < INFINITY);
+    }
+    if (bad)
+      return sph_sim_admit_retry(sim, "%s: %ld particles are in no state of equation of state %s",
+                                 group->name, bad, group->eos.name);
   }
   return SPH_OK;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cpu.h"
+#include "eos_table.h"
 #include "gradient_pair.h"
 #include "memory.h"
 #include "sim_energy.h"
@@ -58,16 +59,18 @@ static int check_values(sph_sim *sim)
     }
     for (long i = 0; i < group->n; i++) {
       double rho = group->own[SPH_DENSITY][0][i], m = group->own[SPH_MASS][0][i];
-      double u = group->own[SPH_ENERGY][0][i];
       if (!(rho > 0 && isfinite(rho)) || !(m > 0 && isfinite(m)))
         return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                             "group %s, particle %ld: density %g, mass %g; right is > 0",
                             group->name, i, rho, m);
-      if (group->eos.thermal && !(u > 0 && isfinite(u)))
-        return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
-                            "group %s, particle %ld: internal energy %g; right is > 0", group->name,
-                            i, u);
     }
+    const double *rho = group->own[SPH_DENSITY][0], *u = group->own[SPH_ENERGY][0];
+    long bad = sph_eos_find_bad(&group->eos, group->n, rho, group->eos.thermal ? u : NULL);
+    if (bad >= 0)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "group %s, particle %ld: no state of equation of state %s has density "
+                          "%g, internal energy %g",
+                          group->name, bad, group->eos.name, rho[bad], u[bad]);
   }
   return SPH_OK;
 }
@@ -257,7 +260,7 @@ static int limits(double t, N_Vector y, sph_step_limit *limit, void *ctx)
   return SPH_OK;
 }
 
-/* A state between steps: density and energy positive, all finite. */
+/* A state between steps: all finite, density positive, a state of the equation of state. */
 static int admissible(double t, N_Vector y, void *ctx)
 {
   sph_sim *sim = ctx;
@@ -266,13 +269,19 @@ static int admissible(double t, N_Vector y, void *ctx)
     sph_view view = sph_group_data_view(sim->group[g], sph_nvector_data(y), NULL);
     for (long i = 0; !sim->group[g]->wall && i < view.n; i++) {
       double size = view.rho[i] + (view.energy ? fabs(view.energy[i]) : 0);
-      int cold = sim->group[g]->eos.thermal && view.energy == view.u && !(view.u[i] > 0);
       for (int q = 0; q < sim->terms.scalars; q++) size += fabs(view.s[q][i]);
       for (int d = 0; d < sim->dim; d++) size += fabs(view.x[d][i]) + fabs(view.v[d][i]);
-      if (!(view.rho[i] > 0) || cold || !(size < INFINITY))
+      if (!(view.rho[i] > 0) || !(size < INFINITY))
         return sph_sim_admit_retry(sim, "%s: particle %ld left the admissible states: density %g",
                                    sim->group[g]->name, i, view.rho[i]);
     }
+    const sph_eos *eos = &sim->group[g]->eos;
+    if (sim->group[g]->wall || (eos->thermal && view.energy != view.u)) continue;
+    long bad = sph_eos_find_bad(eos, view.n, view.rho, eos->thermal ? view.u : NULL);
+    if (bad >= 0)
+      return sph_sim_admit_retry(
+          sim, "%s: particle %ld is in no state of equation of state %s: density %g",
+          sim->group[g]->name, bad, eos->name, view.rho[bad]);
   }
   return SPH_OK;
 }

@@ -49,10 +49,13 @@ static void fill(const sph_sim *sim, const sph_group *wall, const sph_view *view
     u = wall->eos.thermal ? sum[SPH_WALL_U][s] / W : 0;
   }
   if (p < 0 && !wall->boundary.tension) p = 0;
-  int known = !wall->eos.thermal || (p > 0 && u > 0);
-  double rho = known ? wall->eos.density(&wall->eos, p, u) : wall->rho0;
-  double unused;
-  if (wall->boundary.no_slip) wall->eos.pressure(&wall->eos, 1, &rho, &u, &unused, &view->c[i]);
+  double rho = NAN, unused;
+  if (!wall->eos.thermal || W > 0) rho = wall->eos.density(&wall->eos, p, u);
+  if (!(rho > 0 && rho < INFINITY)) rho = wall->rho0;
+  if (wall->boundary.no_slip) {
+    wall->eos.pressure(&wall->eos, 1, &rho, &u, &unused, &view->c[i]);
+    if (isnan(view->c[i])) view->c[i] = 0; /* u = 0 where no fluid is near */
+  }
   view->rho[i] = rho;
   view->m[i] = rho * sim->wall_volume; /* it always fills its place on the lattice */
   view->p[i] = p;

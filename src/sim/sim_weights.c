@@ -1,8 +1,9 @@
 /* Error weights: physical scales of each field of each group.
  *   x: h;  v: V = max(user's, sqrt(g height), 0.01 c0, |v| at the start);
  *   rho: rho0 (V/c0)^2;  u, e: V^2/2;  A: (gamma - 1) rho^(1-gamma) V^2/2;  T: V^2/(2 c_v)
- * and for a gas V = mean sound speed, rho0 = mean density.  An energy that is carried along: the
- * range of u at the start, if that is more.  Scalars: as their terms say. */
+ * and for a thermal one c0 = mean sound speed, rho0 = mean density; for a gas (no c0) V = c0.  An
+ * energy that is carried along: the range of u at the start, if that is more.  Scalars: as their terms
+ * say. */
 #include "sim_weights.h"
 
 #include <math.h>
@@ -56,7 +57,7 @@ void sph_sim_weights_scales(sph_sim *sim, int g, const sph_view *view)
   if (group->eos.thermal || !(c > 0)) c = mean(view->c, view->n);
   if (group->eos.thermal || !(rho > 0)) rho = mean(view->rho, view->n);
   V = fmax(V, fmax(fall_speed(sim, view), speed(sim, view)));
-  V = fmax(V, group->eos.thermal ? c : 0.01 * c);
+  V = fmax(V, group->eos.thermal && !(group->eos.c0 > 0) ? c : 0.01 * c);
   double *scale = sim->scale[g];
   scale[SPH_POSITION] = sim->h;
   scale[SPH_VELOCITY] = V;

@@ -490,6 +490,10 @@ static void null_simulation(void **state)
   sph_group_set_boundary(NULL, sph_boundary_adami());
   sph_group_set_hydrostatic(NULL, 0, 0, 0);
   sph_group_set_pressure(NULL, NULL);
+  sph_group_set_viscosity(NULL, 1), sph_group_set_conductivity(NULL, 1);
+  assert_true(sph_group_viscosity(NULL) == 0 && sph_group_conductivity(NULL) == 0);
+  sph_group_set_material(NULL, sph_material_preset("water", 0));
+  sph_group_set_material(NULL, sph_material_preset(NULL, 0));
   sph_sim_add_term(NULL, sph_term_pressure());
   sph_sim_set_integrator(NULL, NULL);
   sph_sim_add_output(NULL, (sph_output){0});
