@@ -32,8 +32,9 @@ static const command commands[] = {
      "  -s, --set KEY=VALUE    as with run\n"
      "  -t, --threads N        as with run\n"},
     {"info", "LIST", "jcQ", sph_prog_info,
-     "what there is: kernels, eos, terms, integrators, boundaries, case",
-     "  LIST is kernels, eos, terms, integrators, boundaries, or case (the manual of case files, "
+     "what there is: kernels, eos, materials, terms, integrators, boundaries, case",
+     "  LIST is kernels, eos, materials, terms, integrators, boundaries, or case (the manual of "
+     "case files, "
      "Markdown)\n"
      "      --json             for programs\n"
      "      --csv --q LIST     kernels only: kernel,dim,q,W,dWdr,laplacian at h = 1 for each q of "

@@ -6,17 +6,20 @@
 
 #include "prog.h"
 
+enum { DETAILS = 6 };
+
 /* One row of a list: names and texts of its columns. */
 typedef struct row {
   const char *name, *formula;
-  char detail[4][40];
+  char detail[DETAILS][40];
 } row;
 
 typedef struct list {
   const char *name;
-  const char *detail[4]; /* names of the columns between name and formula */
-  const char *kinds;     /* a letter for each: n: number, t: text, y: yes or no */
+  const char *detail[DETAILS]; /* names of the columns between name and formula */
+  const char *kinds;           /* a letter for each: n: number, t: text, y: yes or no */
   int (*get)(int k, row *r);
+  const char *text; /* what the last column is */
 } list;
 
 static int kernel_row(int k, row *r)
@@ -36,6 +39,44 @@ static int eos_row(int k, row *r)
   r->name = sph_eos_name(k);
   if (r->name) r->formula = sph_eos_formula(r->name);
   return r->name != NULL;
+}
+
+/* "about; gamma 7 (source)" */
+static void material_line(const char *name, const sph_material *m, char *line, size_t size)
+{
+  const struct {
+    const char *name, *unit;
+    double value;
+  } constant[] = {{"gamma", "", m->eos.gamma},
+                  {"p_inf", " Pa", m->eos.p_inf},
+                  {"q", " J/kg", m->eos.q},
+                  {"s", "", m->eos.slope},
+                  {"Gamma0", "", m->eos.grueneisen}};
+  snprintf(line, size, "%s", sph_material_about(name));
+  for (size_t k = 0; k < sizeof constant / sizeof *constant; k++) {
+    size_t n = strlen(line);
+    if (constant[k].value != 0)
+      snprintf(line + n, size - n, "; %s %g%s", constant[k].name, constant[k].value,
+               constant[k].unit);
+  }
+  size_t n = strlen(line);
+  snprintf(line + n, size - n, " (%s)", m->source);
+}
+
+static int material_row(int k, row *r)
+{
+  static char line[400];
+  r->name = sph_material_name(k);
+  if (!r->name) return 0;
+  sph_material m = sph_material_preset(r->name, 0);
+  if (!m.eos.name) m = sph_material_preset(r->name, 1), m.eos.c0 = 0; /* numerical only */
+  material_line(r->name, &m, line, sizeof line);
+  r->formula = line;
+  snprintf(r->detail[0], sizeof r->detail[0], "%s", m.eos.name);
+  const double number[] = {m.eos.rho0, m.eos.c0, m.eos.c_v, m.viscosity, m.conductivity};
+  for (int d = 0; d < 5; d++)
+    snprintf(r->detail[1 + d], sizeof r->detail[1 + d], number[d] > 0 ? "%g" : "-", number[d]);
+  return 1;
 }
 
 static int term_row(int k, row *r)
@@ -65,11 +106,20 @@ static int integrator_row(int k, row *r)
 }
 
 static const list lists[] = {
-    {"kernels", {"smoothness", "support/h", "h/dx"}, "tnn", kernel_row},
-    {"eos", {NULL}, "", eos_row},
-    {"terms", {NULL}, "", term_row},
-    {"integrators", {"order", "stages", "error-control", "stability"}, "nnyn", integrator_row},
-    {"boundaries", {NULL}, "", boundary_row},
+    {"kernels", {"smoothness", "support/h", "h/dx"}, "tnn", kernel_row, "formula"},
+    {"eos", {NULL}, "", eos_row, "formula"},
+    {"materials",
+     {"eos", "density", "c0", "c_v", "viscosity", "conductivity"},
+     "tnnnnn",
+     material_row,
+     "about"},
+    {"terms", {NULL}, "", term_row, "formula"},
+    {"integrators",
+     {"order", "stages", "error-control", "stability"},
+     "nnyn",
+     integrator_row,
+     "formula"},
+    {"boundaries", {NULL}, "", boundary_row, "formula"},
 };
 
 static void json_string(const char *text)
@@ -88,8 +138,11 @@ static void json_value(char kind, const char *text)
     json_string(text);
   else if (kind == 'y')
     fputs(!strcmp(text, "yes") ? "true" : "false", stdout);
-  else
-    fputs(isfinite(strtod(text, NULL)) ? text : "null", stdout);
+  else {
+    char *end;
+    double value = strtod(text, &end);
+    fputs(end != text && isfinite(value) ? text : "null", stdout);
+  }
 }
 
 static void print_json(const list *l)
@@ -98,39 +151,42 @@ static void print_json(const list *l)
   for (int k = 0; l->get(k, &r); k++) {
     fputs(k ? ",\n  {\"name\": " : "[\n  {\"name\": ", stdout);
     json_string(r.name);
-    for (int d = 0; d < 4 && l->detail[d]; d++) {
+    for (int d = 0; d < DETAILS && l->detail[d]; d++) {
       fputs(", ", stdout);
       json_string(l->detail[d]);
       fputs(": ", stdout);
       json_value(l->kinds[d], r.detail[d]);
     }
-    if (r.formula) fputs(", \"formula\": ", stdout);
+    if (r.formula) printf(", \"%s\": ", l->text);
     if (r.formula) json_string(r.formula);
     putchar('}');
   }
   puts("\n]");
 }
 
-static int width(const list *l)
+/* Of column d; -1: of the names. */
+static int width(const list *l, int d)
 {
   row r = {0};
-  size_t most = 4;
-  for (int k = 0; l->get(k, &r); k++)
-    if (strlen(r.name) > most) most = strlen(r.name);
+  size_t most = d < 0 ? 4 : strlen(l->detail[d]);
+  for (int k = 0; l->get(k, &r); k++) {
+    size_t n = strlen(d < 0 ? r.name : r.detail[d]);
+    if (n > most) most = n;
+  }
   return (int)most;
 }
 
 static void print_list(const list *l)
 {
   row r = {0};
-  int first = width(l);
+  int first = width(l, -1), wide[DETAILS] = {0};
+  for (int d = 0; d < DETAILS && l->detail[d]; d++) wide[d] = width(l, d);
   if (l->detail[0]) printf("%-*s", first, "name");
-  for (int d = 0; d < 4 && l->detail[d]; d++) printf("  %s", l->detail[d]);
+  for (int d = 0; d < DETAILS && l->detail[d]; d++) printf("  %*s", wide[d], l->detail[d]);
   if (l->detail[0]) putchar('\n');
   for (int k = 0; l->get(k, &r); k++) {
     printf("%-*s", first, r.name);
-    for (int d = 0; d < 4 && l->detail[d]; d++)
-      printf("  %*s", (int)strlen(l->detail[d]), r.detail[d]);
+    for (int d = 0; d < DETAILS && l->detail[d]; d++) printf("  %*s", wide[d], r.detail[d]);
     printf("%s%s\n", r.formula ? "  " : "", r.formula ? r.formula : "");
   }
 }
@@ -184,7 +240,9 @@ int sph_prog_info(const prog_options *o)
     (o->json ? print_json : print_list)(&lists[k]);
     return PROG_OK;
   }
-  return sph_prog_error(PROG_USAGE,
-                        "info %s: known are kernels, eos, terms, integrators, boundaries, case",
-                        o->what);
+  return sph_prog_error(
+      PROG_USAGE,
+      "info %s: known are kernels, eos, materials, terms, integrators, boundaries, "
+      "case",
+      o->what);
 }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "case_material.h"
 #include "case_schema.h"
 #include "memory.h"
 #include "sphode/case.h"
@@ -35,20 +36,6 @@ static int fail(const builder *b, const sph_case_node *node, const char *what)
 static int axis_of(const char *word) { return word[0] - 'x'; }
 
 /* ---- groups */
-
-static sph_eos eos_of(const sph_case_node *kind, double density)
-{
-  double c0 = get_number(kind, "sound_speed", 0), gamma = get_number(kind, "gamma", 0);
-  sph_eos eos;
-  if (!strcmp(kind->key, "tait"))
-    eos = sph_eos_tait(density, c0, gamma);
-  else if (!strcmp(kind->key, "linear"))
-    eos = sph_eos_linear(density, c0, get_number(kind, "p_min", -INFINITY));
-  else
-    return sph_eos_ideal_gas(gamma);
-  eos.p_background = get_number(kind, "background", 0);
-  return eos;
-}
 
 typedef struct steady {
   double velocity[3];
@@ -113,16 +100,16 @@ static int add_shape(const builder *b, sph_group *group, const sph_case_node *sh
 
 static int build_group(const builder *b, const sph_case_node *map)
 {
-  const sph_case_node *eos = child_of(map, "eos"), *boundary = child_of(map, "boundary");
+  const sph_case_node *eos = child_of(map, "eos"), *material = child_of(map, "material");
+  const sph_case_node *boundary = child_of(map, "boundary");
   const sph_case_node *initial = child_of(map, "initial"), *shape = child_of(map, "shapes")->first;
-  double density = get_number(map, "density", 0);
+  double density = sph_case_material_density(map);
   int wall = !strcmp(get_text(map, "kind", ""), "wall"), status;
   if (wall && initial) return fail(b, initial, "a wall has no initial state; see boundary: motion");
   if (!wall && boundary) return fail(b, boundary, "a fluid has no boundary; a wall has");
-  if (!wall && !eos) return fail(b, map, "missing key 'eos': a fluid needs an equation of state");
   sph_group *group = sph_group_create(b->sim, map->key, get_text(map, "kind", ""));
-  if (eos && !told(b, map)) sph_group_set_eos(group, eos_of(eos->first, density));
-  status = told(b, eos ? eos : map);
+  if (!told(b, map)) sph_case_material_set(b->sim, group, map);
+  status = told(b, material ? material : eos ? eos : map);
   if (!status && child_of(map, "energy")) {
     sph_group_set_energy(group, get_text(map, "energy", ""));
     status = told(b, child_of(map, "energy"));

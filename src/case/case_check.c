@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "case_material.h"
 #include "case_schema.h"
 
 static int check_value(sph_case *c, const sph_case_key *key, sph_case_node *node);
@@ -373,5 +374,6 @@ int sph_case_check(sph_case *c)
     return c->error->status;
   int status = check_map(c, "case", c->root);
   if (!status) status = check_fluid(c);
+  if (!status) status = sph_case_material_check(c);
   return status ? status : check_forms(c);
 }

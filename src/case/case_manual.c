@@ -23,8 +23,8 @@ static const char head[] =
     "functions are those of muParser: `sqrt`, `sin`, `exp`, `min`, `max`, `abs`, ..., "
     "`x < 0 ? a : b`, and the constant `pi`.\nExpressions of the initial state may use the "
     "coordinates `x`, `y`, `z`, those of sources the time `t`, too.\n\n"
-    "**Units**: kg g, m km dm cm mm um in ft, s ms us min, Hz kHz, N kN, Pa hPa kPa MPa GPa bar "
-    "mbar, J kJ MJ, W kW, and their\nproducts, quotients and powers.\n\n"
+    "**Units**: kg g, m km dm cm mm um in ft, s ms us min, Hz kHz, N kN, Pa mPa hPa kPa MPa GPa "
+    "bar mbar, J kJ MJ, W mW kW, K, mol, and\ntheir products, quotients and powers.\n\n"
     "An **error** tells its place, what was found and what is right:\n\n"
     "```\ncase.yml:7:10: spacing: found s, wanted m\n"
     "case.yml:9:3: unknown key 'nam' in kernel; did you mean 'name'? known: name, h_over_dx\n```\n";

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "sphode/kernel.h"
+#include "sphode/material.h"
 
 static const sph_case_mapping mappings[] = {
 #define SPH_CASE_MAPPING(mapping, one, about) {#mapping, one, about},
@@ -42,6 +43,7 @@ static const char *library_word(const char *table, int k, char word[80])
   sph_integrator_info info;
   if (!strcmp(table, "@kernels")) found = sph_kernel_name(sph_kernel_get(k));
   if (!strcmp(table, "@boundaries")) found = sph_boundary_name(k);
+  if (!strcmp(table, "@materials")) found = sph_material_name(k);
   if (!strcmp(table, "@monitors")) found = sph_monitor_type(k);
   if (!strcmp(table, "@integrators") && sph_integrator_info_get(k, &info)) found = info.name;
   if (found) snprintf(word, 80, "%s", found);

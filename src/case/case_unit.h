@@ -1,9 +1,9 @@
-/* case_unit.h -- units of measurement: a factor to SI and the exponents of kg, m, s. */
+/* case_unit.h -- units of measurement: a factor to SI and the exponents of kg, m, s, K, mol. */
 #ifndef SPH_CASE_UNIT_H
 #define SPH_CASE_UNIT_H
 #include <stddef.h>
 
-enum { SPH_CASE_BASES = 3 }; /* kg, m, s */
+enum { SPH_CASE_BASES = 5 }; /* kg, m, s, K, mol */
 
 typedef struct sph_case_unit {
   double factor; /* value in SI = value in this unit * factor */

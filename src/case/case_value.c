@@ -84,10 +84,11 @@ static size_t number(formula *f, size_t k, const double scale[SPH_CASE_BASES])
   if (isalpha((unsigned char)end[gap]) || end[gap] == '_') {
     size_t n = 0;
     while (isalnum((unsigned char)end[gap + n]) || end[gap + n] == '_') n++;
-    problem(f, k + digits + gap,
-            "'%.*s' is not a unit; known are kg, m, s, N, Pa, J, W with their multiples as mm, "
-            "kPa, and products as m/s^2; a product with a name needs *",
-            (int)(n < 40 ? n : 40), end + gap);
+    problem(
+        f, k + digits + gap,
+        "'%.*s' is not a unit; known are kg, m, s, K, mol, N, Pa, J, W with their multiples as mm, "
+        "kPa, and products as m/s^2; a product with a name needs *",
+        (int)(n < 40 ? n : 40), end + gap);
     return 0;
   }
   snprintf(piece, sizeof piece, "(%.17g)", v);
@@ -178,7 +179,7 @@ static int evaluate(formula *f, const double scale[SPH_CASE_BASES], double *valu
 /* The exponent of base b, from two ratios that must agree. */
 static int exponent(formula *f, int b, double *power)
 {
-  double scale[SPH_CASE_BASES] = {1, 1, 1}, more, less, value = f->result->value;
+  double scale[SPH_CASE_BASES] = {1, 1, 1, 1, 1}, more, less, value = f->result->value;
   scale[b] = 4;
   if (evaluate(f, scale, &more)) return SPH_ERR_PARSE;
   scale[b] = 0.25;
@@ -210,7 +211,7 @@ static int prepare(formula *f, const char *text, const sph_case_name *names, int
   return forbidden(f);
 }
 
-static const double si[SPH_CASE_BASES] = {1, 1, 1};
+static const double si[SPH_CASE_BASES] = {1, 1, 1, 1, 1};
 
 static int dimensions(formula *f)
 {

@@ -15,7 +15,7 @@ typedef struct sph_case_name {
 
 typedef struct sph_case_value {
   double value;                 /* SI */
-  double power[SPH_CASE_BASES]; /* of kg, m, s */
+  double power[SPH_CASE_BASES]; /* of kg, m, s, K, mol */
   int any;                      /* the value is 0: it fits any unit */
   int column;                   /* of a problem, from 0 */
   char problem[300];            /* what was found; what is right; "" without */

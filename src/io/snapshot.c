@@ -244,6 +244,11 @@ static void write_group(writer *w, hid_t groups, const sph_group *group, int ind
     sph_h5_real(&w->h5, one, "EOS_c0", 0, &eos->c0);
     sph_h5_real(&w->h5, one, "EOS_gamma", 0, &eos->gamma);
     sph_h5_real(&w->h5, one, "EOS_p_background", 0, &eos->p_background);
+    sph_h5_real(&w->h5, one, "EOS_p_inf", 0, &eos->p_inf);
+    sph_h5_real(&w->h5, one, "EOS_q", 0, &eos->q);
+    sph_h5_real(&w->h5, one, "EOS_slope", 0, &eos->slope);
+    sph_h5_real(&w->h5, one, "EOS_grueneisen", 0, &eos->grueneisen);
+    sph_h5_real(&w->h5, one, "EOS_c_v", 0, &eos->c_v);
   }
   if (one >= 0) H5Gclose(one);
 }

@@ -211,6 +211,63 @@ static void materials(void **state)
   refused_boundary((sph_boundary){.name = "mirror"}, "adami", "boundary: the known ones");
 }
 
+static void refused_material(sph_material material, const char *word, const char *what)
+{
+  small s = make();
+  sph_group_set_material(s.water, material);
+  assert_refused(s.sim, SPH_ERR_ARGUMENT, word, what);
+  sph_sim_free(s.sim);
+}
+
+static int let_go;
+static void count_free(void *ctx) { let_go += *(int *)ctx; }
+
+static void properties(void **state)
+{
+  (void)state;
+  for (int k = 0; k < BAD; k++) {
+    refused_eos(sph_eos_stiffened_gas(bad[k], 4.4, 6e8, 0), bad_text[k], "rho0");
+    refused_eos(sph_eos_mie_grueneisen(8930, 3940, 1.49, bad[k]), bad_text[k], "grueneisen");
+    for (int wall = 0; wall < 2 && k != ZERO; wall++) {
+      small s = make();
+      sph_group_set_viscosity(wall ? s.floor : s.water, bad[k]);
+      assert_refused(s.sim, SPH_ERR_ARGUMENT, bad_text[k], "viscosity");
+      sph_sim_free(s.sim), s = make();
+      sph_group_set_conductivity(wall ? s.floor : s.water, bad[k]);
+      assert_refused(s.sim, SPH_ERR_ARGUMENT, bad_text[k], "conductivity");
+      sph_sim_free(s.sim);
+    }
+    sph_material water = sph_material_preset("water", 20);
+    if (k != ZERO) water.viscosity = bad[k], refused_material(water, bad_text[k], "viscosity");
+    if (k != ZERO) refused_material(sph_material_preset("water", bad[k]), bad_text[k], "c0");
+    if (k != ZERO) refused_material(sph_material_preset("steel", bad[k]), "leave c0", "c0");
+  }
+  refused_material(sph_material_preset("ketchup", 0), "ketchup", "material");
+  refused_material(sph_material_preset("ketchup", 0), "water-stiffened", "the known ones");
+  refused_material(sph_material_preset(NULL, 0), "known: water", "no name");
+  refused_material(sph_material_preset("oil", 0), "oil", "no sound speed");
+
+  small s = make();
+  int one = 1;
+  sph_material own = sph_material_preset("water", 20);
+  own.eos.ctx = &one, own.eos.free = count_free;
+  let_go = 0;
+  sph_group_set_viscosity(s.floor, 0.5), sph_group_set_conductivity(s.floor, 2);
+  sph_group_set_material(s.water, own); /* replaced: let go of */
+  sph_group_set_material(s.water, sph_material_preset("water", 20));
+  assert_int_equal(let_go, 1);
+  sph_group_set_material(NULL, own);
+  assert_int_equal(let_go, 2);
+  assert_true(sph_group_viscosity(s.floor) == 0.5 && sph_group_conductivity(s.floor) == 2);
+  assert_true(sph_group_viscosity(s.water) == 1.002e-3);
+  assert_int_equal(sph_sim_evaluate(s.sim), SPH_OK);
+  sph_group_set_viscosity(s.water, 1);
+  assert_refused(s.sim, SPH_ERR_STATE, "viscosity", "viscosity in the run");
+  sph_group_set_material(s.water, own);
+  assert_int_equal(let_go, 3);
+  sph_sim_free(s.sim);
+}
+
 /* ---- terms ---- */
 
 static void refused_term(sph_term term, const char *word, const char *what)
@@ -527,6 +584,7 @@ int main(void)
       cmocka_unit_test(groups),
       cmocka_unit_test(no_pointers),
       cmocka_unit_test(materials),
+      cmocka_unit_test(properties),
       cmocka_unit_test(terms),
       cmocka_unit_test(integrators),
       cmocka_unit_test(own_integrators),

@@ -59,7 +59,7 @@ usage "two arguments" "found 2" run "$dam" "$dam"
 usage "threads that are no number" "--threads 1e3: wanted a whole number" run --threads 1e3 "$dam"
 usage "no threads" "--threads 0" run --threads 0 "$dam"
 usage "more threads than the library takes" "from 1 to 1024" run --threads 1025 "$dam"
-run 2 "$sphode" info pets && grep -q "known are kernels, eos, terms" err
+run 2 "$sphode" info pets && grep -q "known are kernels, eos, materials, terms" err
 ok $? "an unknown list names the known ones"
 run 2 "$sphode" info kernels --csv --q 0,x && grep -q "found 'x'" err && [[ ! -s out ]]
 ok $? "a bad q is refused before anything is printed"

@@ -30,7 +30,7 @@ static void units_have_their_size_and_dimension(void **state)
 {
   static const struct {
     const char *text;
-    double value, power[3]; /* SI; kg, m, s */
+    double value, power[SPH_CASE_BASES]; /* SI; kg, m, s, K, mol */
   } cases[] = {
       {"9.81 m/s^2", 9.81, {0, 1, -2}},
       {"0.5 mm", 0.5e-3, {0, 1, 0}},
@@ -44,6 +44,11 @@ static void units_have_their_size_and_dimension(void **state)
       {"2 N*m", 2, {1, 2, -2}},
       {"1 J/kg", 1, {0, 2, -2}},
       {"1 bar", 1e5, {1, -1, -2}},
+      {"1.002 mPa s", 1.002e-3, {1, -1, -1}},
+      {"0.6 W/m/K", 0.6, {1, 1, -3, -1}},
+      {"0.4 kJ/kg/K", 400, {0, 2, -2, -1}},
+      {"28.9644 g/mol", 0.0289644, {1, 0, 0, 0, -1}},
+      {"8.314 J/mol/K*2 K", 16.628, {1, 2, -2, 0, -1}},
       {"50 Hz", 50, {0, 0, -1}},
       {"36 km/min", 600, {0, 1, -1}},
       {"H/40", 0.015, {0, 1, 0}},
@@ -212,6 +217,113 @@ static void the_simulation_is_what_the_file_says(void **state)
   sph_case_free(c);
 }
 
+/* One group of each kind, beside what it must be. */
+static void materials_are_what_the_file_says(void **state)
+{
+  const sph_eos water = sph_eos_tait(1000, 20, 7);
+  sph_eos oil = sph_eos_linear(900, 30, -5), mud = sph_eos_murnaghan(1500, 3e6, 4);
+  sph_eos liquid = sph_eos_stiffened_gas(1000, 4.4, 6e8, 20),
+          own = sph_material_preset("air-tait", 50).eos;
+  oil.p_background = mud.p_background = 100;
+  liquid.c_v = 3000, own.rho0 = 1.3;
+  const struct {
+    const char *text;
+    sph_eos eos;
+    double viscosity, conductivity;
+  } group[] = {
+      {"density: 1000, eos: {tait: {sound_speed: 20}}, viscosity: 2 mPa s", water, 2e-3, 0},
+      {"density: 900, eos: {linear: {sound_speed: 30, background: 1 hPa, p_min: -5 Pa}}", oil, 0,
+       0},
+      {"density: 1500, eos: {murnaghan: {bulk_modulus: 3 MPa, n: 4, background: 1 hPa}}", mud, 0,
+       0},
+      {"density: 1.2, eos: {isothermal: {sound_speed: 290}}", sph_eos_isothermal(1.2, 290), 0, 0},
+      {"density: 2, eos: {polytropic: {pressure: 8 Pa, gamma: 2}}", sph_eos_polytropic(2, 2, 2), 0,
+       0},
+      {"density: 1, eos: {ideal-gas: {gamma: 1.4, molar_mass: 29 g/mol}}, conductivity: 0.025 "
+       "W/m/K",
+       sph_eos_ideal_gas_molar(1.4, 0.029), 0, 0.025},
+      {"density: 1000, eos: {stiffened-gas: {gamma: 4.4, p_inf: 0.6 GPa, q: 20}}, "
+       "specific_heat: 3 kJ/kg/K",
+       liquid, 0, 0},
+      {"density: 8930, eos: {mie-grueneisen: {sound_speed: 3940, slope: 1.49, grueneisen: 2}}",
+       sph_eos_mie_grueneisen(8930, 3940, 1.49, 2), 0, 0},
+      {"density: 1.225, eos: {tait: {match: g0, gamma: 1.4}}",
+       sph_eos_tait_matched(&water, 1.225, 1.4), 0, 0},
+      {"material: {preset: water, sound_speed: 10}, conductivity: 0",
+       sph_material_preset("water", 10).eos, 1.002e-3, 0},
+      {"material: {preset: air-tait, sound_speed: 50}, density: 1.3, viscosity: 0", own, 0,
+       0.025326},
+      {"material: {preset: steel}", sph_material_preset("steel", 0).eos, 0, 0},
+      {"density: 1.225, eos: {tait: {match: g9, gamma: 1.4}}",
+       sph_eos_tait_matched(&(sph_eos){.rho0 = 998.2, .c0 = 10, .gamma = 7}, 1.225, 1.4), 0, 0},
+  };
+  enum { GROUPS = sizeof group / sizeof *group };
+  char text[4000] = "dimension: 1\nspacing: 0.1\ngroups:\n", name[20];
+  sph_error error = {0};
+  (void)state;
+  for (int k = 0; k < GROUPS; k++)
+    snprintf(text + strlen(text), sizeof text - strlen(text),
+             "  g%d: {kind: fluid, %s, shapes: [{box: {lower: [%d], upper: [%d]}}]}\n", k,
+             group[k].text, k, k + 1);
+  strcat(text, "terms: {continuity: , pressure: }\nrun: {end: 20 ms}\n");
+  sph_case *c = sph_case_read_text("groups.yml", text, strlen(text), 0, NULL, &error);
+  sph_sim *sim = c ? sph_case_build(c, 1, &error) : NULL;
+  if (!sim) fail_msg("%s", error.text);
+  for (int k = 0; k < GROUPS; k++) {
+    snprintf(name, sizeof name, "g%d", k);
+    const sph_group *g = sph_sim_group(sim, name);
+    const sph_eos *found = sph_group_eos(g), *expected = &group[k].eos;
+    assert_string_equal(found->name, expected->name);
+    const double a[] = {found->rho0,
+                        found->c0,
+                        found->gamma,
+                        found->p_background,
+                        found->p_inf,
+                        found->q,
+                        found->slope,
+                        found->grueneisen,
+                        found->c_v,
+                        sph_group_viscosity(g),
+                        sph_group_conductivity(g)};
+    const double b[] = {expected->rho0,         expected->c0,         expected->gamma,
+                        expected->p_background, expected->p_inf,      expected->q,
+                        expected->slope,        expected->grueneisen, expected->c_v,
+                        group[k].viscosity,     group[k].conductivity};
+    for (int m = expected->rho0 > 0 ? 0 : 1; m < 11; m++)
+      if (!(fabs(a[m] - b[m]) <= 1e-14 * fabs(b[m])))
+        fail_msg("%s: constant %d is %.17g, expected %.17g", name, m, a[m], b[m]);
+    assert_true(found->p_min == expected->p_min);
+    double rho = expected->rho0 > 0 ? expected->rho0 : 1;
+    if (strcmp(found->name, "ideal-gas") != 0) /* the density of the particles, too */
+      assert_true(fabs(sph_group_read(g, "density", 0)[0] - rho) <= 1e-14 * rho);
+  }
+  sph_sim_free(sim);
+  sph_case_free(c);
+}
+
+static void a_preset_without_that_sound_speed(void **state)
+{
+  static const char text[] =
+      "dimension: 1\nspacing: 0.1\ngroups:\n  block: {kind: fluid, material: "
+      "%s, shapes: [{box: {lower: [0], upper: [1]}}]}\n"
+      "terms: {continuity: , pressure: }\nrun: {end: 1}\n";
+  static const char *const wrong[][2] = {
+      {"{preset: steel, sound_speed: 9}", "bad.yml:4:24: material steel: c0 = 9 m/s"},
+      {"{preset: oil}", "bad.yml:4:24: material oil: numerical sound speed c0 = 0 m/s must be"}};
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    char whole[500];
+    sph_error error = {0};
+    snprintf(whole, sizeof whole, text, wrong[k][0]);
+    sph_case *c = sph_case_read_text("bad.yml", whole, strlen(whole), 0, NULL, &error);
+    assert_non_null(c);
+    assert_null(sph_case_build(c, 1, &error));
+    if (strncmp(error.text, wrong[k][1], strlen(wrong[k][1])) != 0)
+      fail_msg("found %s", error.text);
+    sph_case_free(c);
+  }
+}
+
 /* ---- broken files */
 
 static void check_broken(const char *directory, const char *file)
@@ -320,6 +432,8 @@ int main(void)
       cmocka_unit_test(a_wrong_set_says_so),
       cmocka_unit_test(a_byte_order_mark_is_skipped),
       cmocka_unit_test(the_simulation_is_what_the_file_says),
+      cmocka_unit_test(materials_are_what_the_file_says),
+      cmocka_unit_test(a_preset_without_that_sound_speed),
       cmocka_unit_test(broken_files_say_what_is_wrong),
       cmocka_unit_test(bombs_and_garbage_are_refused_at_once),
       cmocka_unit_test(a_file_that_is_not_there),
