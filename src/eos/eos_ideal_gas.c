@@ -50,7 +50,7 @@ sph_eos sph_eos_ideal_gas(double gamma)
 sph_eos sph_eos_ideal_gas_molar(double gamma, double M)
 {
   sph_eos eos = sph_eos_ideal_gas(gamma);
-  eos.c_v = M > 0 ? R / (M * (gamma - 1)) : NAN;
+  eos.c_v = M > 0 && isfinite(M) ? R / (M * (gamma - 1)) : NAN;
   return eos;
 }
 
