@@ -1,5 +1,5 @@
-/* Mie-Grueneisen about the Hugoniot U_s = c0 + s u_p, Gamma rho = Gamma0 rho0 (Steinberg 1996; Meyers
- * 1994), thermal.  chi = 1 - rho0/rho:
+/* Mie-Grueneisen about the Hugoniot U_s = c0 + s u_p, Gamma rho = Gamma0 rho0 (Meyers 1994;
+ * Steinberg 1996), thermal.  chi = 1 - rho0/rho:
  *
  *   p = p_r(chi) + Gamma0 rho0 u
  *   chi >= 0: p_r = p_H (1 - Gamma0 chi/2), p_H = rho0 c0^2 chi/(1 - s chi)^2
@@ -62,7 +62,7 @@ static double energy_at(const sph_eos *eos, double rho, double p)
   return (p / eos->rho0 - eos->c0 * eos->c0 * p_r) / eos->grueneisen;
 }
 
-/* u_s by the Gauss-Legendre rule of 5 points in 16 panels: to round-off where chi is below 0.8/s. */
+/* u_s by the Gauss-Legendre rule of 5 points in 16 panels: to 1e-12 where chi is below 0.8/s. */
 static double isentrope(const sph_eos *eos, double chi)
 {
   enum { PANELS = 16 };

@@ -4,8 +4,8 @@
  *   rho = (p + gamma p_inf)/((gamma - 1) (u - q)),  u = (p + gamma p_inf)/((gamma - 1) rho) + q
  *   c_v T = u - q - p_inf/rho = (p + p_inf)/((gamma - 1) rho),  T (dp/dT)_rho = p + p_inf
  *
- * It bears tension down to p = -p_inf, where T = 0; no state lies there or beyond.  q moves the zero
- * of energy: u may have either sign. */
+ * It bears tension down to p = -p_inf, where T = 0; no state lies there or beyond.  q moves the
+ * zero of energy: u may have either sign. */
 #include <math.h>
 #include <stddef.h>
 

@@ -25,7 +25,8 @@ int sph_eos_check_reference(const sph_eos *eos, sph_error *error);
 int sph_eos_check_thermal(const sph_eos *eos, sph_error *error);
 int sph_eos_power_check_gas(const sph_eos *eos, double p0, sph_error *error);
 
-/* Index of the first of n states that does not exist (c NaN or infinite), -1: none; u as for pressure. */
+/* Index of the first of n states that does not exist (c NaN or infinite), -1: none; u as for
+ * pressure. */
 long sph_eos_find_bad(const sph_eos *eos, long n, const double *rho, const double *u);
 
 /* Of p - p_b = (rho0 c0^2/gamma) [(rho/rho0)^gamma - 1], gamma >= 1 (the linear one: 1). */

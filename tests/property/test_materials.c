@@ -1,5 +1,5 @@
-/* Equations of state in whole simulations: two that are the same move the same; the zero of energy is
- * free; states that do not exist are refused or asked back. */
+/* Equations of state in whole simulations: two that are the same move the same; the zero of energy
+ * is free; states that do not exist are refused or asked back. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
