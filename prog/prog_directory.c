@@ -27,6 +27,7 @@ static const char *const ours[] = {
     "compare_[0-9]*.png",
     "compare_[0-9]*.gp",
     "compare_[0-9]*.dat",
+    "compare_[0-9]*.csv",
 };
 
 static int is_ours(const char *name)

@@ -35,12 +35,13 @@ SPH_API void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char 
                                     const char *command);
 
 /* What a finished run in a directory says against the references of the case: *list[*n],
- * sph_case_compare_free. */
+ * sph_case_compare_free.  Comparisons k with solutions in space leave directory/compare_k.csv. */
 SPH_API int sph_case_compare(const sph_case *c, sph_sim *sim, const char *directory,
                              sph_comparison **list, int *n, sph_error *error);
 SPH_API void sph_case_compare_free(sph_comparison *list, int n);
-/* Draws comparison k = 0, 1, ... of a time series with a table as directory/compare_k.png, whose
- * path is written to png[size].  SPH_ERR_ARGUMENT: not such a comparison. */
+/* Draws comparison k = 0, 1, ..., of a time series with a table or of particles with a solution in
+ * space, as directory/compare_k.png, whose path is written to png[size].  SPH_ERR_ARGUMENT: not
+ * such a comparison. */
 SPH_API int sph_case_compare_plot(const sph_case *c, int k, const char *directory, char *png,
                                   size_t size, sph_error *error);
 

@@ -31,6 +31,10 @@ SPH_API void sph_group_add_layers(sph_group *group, const double *lo, const doub
 /* Any points: x[d][n] [m]. */
 SPH_API void sph_group_add_points(sph_group *group, long n, const double *const x[], double rho0);
 
+/* Moves each particle that the group has by up to `fraction` of dx, 0 to 0.5, in each direction,
+ * uniformly; a number of its particle and the seed alone decide: the same start everywhere. */
+SPH_API void sph_group_jitter(sph_group *group, double fraction, unsigned long seed);
+
 /* Create and add in one: a fluid box; walls around a box. */
 SPH_API sph_group *sph_group_box(sph_sim *sim, const char *name, const double *lo, const double *hi,
                                  double rho0);
@@ -83,6 +87,9 @@ SPH_API const long *sph_group_ids(const sph_group *group);
  * at height `surface` along axis (0, 1, 2) [m]: the exact column of its equation of state; keeps
  * volumes, scales masses. */
 SPH_API void sph_group_set_hydrostatic(sph_group *group, int axis, double surface, double g);
+/* The same below a surface that carries p_surface [Pa], as another liquid's weight. */
+SPH_API void sph_group_set_column(sph_group *group, int axis, double surface, double p_surface,
+                                  double g);
 /* Sets the pressure of every particle [count] through the inverse equation of state; keeps volumes,
  * scales masses.  Thermal groups: sets u at the present density instead. */
 SPH_API void sph_group_set_pressure(sph_group *group, const double *p);

@@ -133,7 +133,8 @@ typedef struct sph_plot_curve {
   double x_scale, y_scale; /* 0: 1 */
   double x_offset;         /* in the unit of the column */
   const char *label;       /* in the key; NULL: the column's name */
-  int points;              /* 1: points (a reference), 0: a line */
+  int points;              /* 1: points, 0: a line */
+  int colour;              /* of the palette, from 1 to 8; 0: by its place among the curves */
 } sph_plot_curve;
 
 typedef struct sph_plot_def {

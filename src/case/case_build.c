@@ -115,6 +115,11 @@ static int build_group(const builder *b, const sph_case_node *map)
     status = told(b, child_of(map, "energy"));
   }
   for (; shape && !status; shape = shape->next) status = add_shape(b, group, shape->first, density);
+  if (!status && get_number(map, "jitter", 0) > 0) {
+    sph_group_jitter(group, get_number(map, "jitter", 0),
+                     (unsigned long)get_number(map, "seed", 1));
+    status = told(b, map);
+  }
   if (!status && wall) status = set_boundary(b, group, boundary);
   if (!status && sph_group_count(group) == 0) status = fail(b, map, "the group has no particles");
   return status;
@@ -154,8 +159,11 @@ static int set_hydrostatic(const builder *b, sph_group *group, const sph_case_no
   const char *axis = get_text(map, "axis", NULL);
   int up = axis ? axis_of(axis) : b->c->dim - 1;
   if (up >= b->c->dim) return fail(b, map, "there is no such axis in this dimension");
-  sph_group_set_hydrostatic(group, up, get_number(map, "surface", 0),
-                            get_number(map, "gravity", 0));
+  double surface = get_number(map, "surface", 0), g = get_number(map, "gravity", 0);
+  if (child_of(map, "pressure"))
+    sph_group_set_column(group, up, surface, get_number(map, "pressure", 0), g);
+  else
+    sph_group_set_hydrostatic(group, up, surface, g);
   return told(b, map);
 }
 

@@ -1,10 +1,10 @@
-/* What a run says against its references: tables over time, exact solutions at the end. */
+/* What a run says against its references: tables and exact solutions over time here, exact solutions
+ * in space in case_profile.c. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "case_curve.h"
-#include "case_schema.h"
+#include "case_profile.h"
 #include "csv.h"
 #include "exact.h"
 #include "file.h"
@@ -15,14 +15,7 @@
 #define get_text sph_case_reader_text
 #define get_number sph_case_reader_number
 
-typedef struct comparer {
-  const sph_case *c;
-  sph_sim *sim; /* NULL: series only */
-  const char *directory;
-  const sph_case_node *node; /* the comparison */
-  const sph_case_node *kind; /* of its reference */
-  sph_error *error;
-} comparer;
+typedef sph_case_comparer comparer;
 
 typedef struct table {
   long n;
@@ -138,135 +131,6 @@ static int compare_series(const comparer *a, sph_case_distance *d)
   return status;
 }
 
-/* ---- exact solutions at the end, over the particles of the fluids */
-
-typedef struct profile {
-  long n;
-  double *x, *run, *exact, *weight; /* [n] owned; weight: volume */
-} profile;
-
-static void profile_free(profile *p)
-{
-  sph_memory_free(p->x);
-  sph_memory_free(p->run);
-  sph_memory_free(p->exact);
-  sph_memory_free(p->weight);
-}
-
-static int profile_new(profile *p, long n, sph_error *error)
-{
-  p->x = SPH_NEW(double, n, "a profile", error);
-  p->run = SPH_NEW(double, n, "a profile", error);
-  p->exact = SPH_NEW(double, n, "a profile", error);
-  p->weight = SPH_NEW(double, n, "a profile", error);
-  return p->x && p->run && p->exact && p->weight ? SPH_OK : SPH_ERR_MEMORY;
-}
-
-/* "velocity_y": field and component. */
-static const double *field_of(const sph_group *group, const char *name)
-{
-  char field[40];
-  size_t n = strlen(name);
-  int component = 0;
-  snprintf(field, sizeof field, "%s", name);
-  if (n > 2 && n < sizeof field && name[n - 2] == '_' && strchr("xyz", name[n - 1])) {
-    component = name[n - 1] - 'x';
-    field[n - 2] = 0;
-  }
-  return sph_group_read(group, field, component);
-}
-
-/* The particles of a group whose coordinate is in the window. */
-static int gather(const comparer *a, const sph_group *group, int axis, const double window[2],
-                  profile *p)
-{
-  const double *x = sph_group_read(group, "position", axis), *m = sph_group_read(group, "mass", 0);
-  const double *rho = sph_group_read(group, "density", 0);
-  const double *f = field_of(group, get_text(a->node, "quantity", ""));
-  if (!x || !m || !rho || !f) return fail(a, child_of(a->node, "quantity"), "no such field");
-  for (long i = 0; i < sph_group_count(group); i++) {
-    if (x[i] < window[0] || x[i] > window[1]) continue;
-    p->x[p->n] = x[i];
-    p->run[p->n] = f[i];
-    p->weight[p->n++] = m[i] / rho[i];
-  }
-  return SPH_OK;
-}
-
-static sph_exact_gas gas_of(const sph_case_node *map)
-{
-  return (sph_exact_gas){.rho = get_number(map, "density", 0),
-                         .u = get_number(map, "velocity", 0),
-                         .p = get_number(map, "pressure", 0)};
-}
-
-static int exact_riemann(const comparer *a, profile *p)
-{
-  const char *field = get_text(a->node, "quantity", "");
-  double t = sph_sim_time(a->sim), gamma = get_number(a->kind, "gamma", 1.4);
-  sph_exact_riemann r = {.gamma = gamma,
-                         .left = gas_of(child_of(a->kind, "left")),
-                         .right = gas_of(child_of(a->kind, "right"))};
-  int status = sph_exact_riemann_solve(&r, a->error);
-  for (long i = 0; i < p->n && !status; i++) {
-    double s = t > 0 ? p->x[i] / t : copysign(HUGE_VAL, p->x[i]);
-    sph_exact_gas gas = sph_exact_riemann_at(&r, s);
-    if (!strcmp(field, "density"))
-      p->exact[i] = gas.rho;
-    else if (!strcmp(field, "velocity_x"))
-      p->exact[i] = gas.u;
-    else if (!strcmp(field, "pressure"))
-      p->exact[i] = gas.p;
-    else if (!strcmp(field, "energy"))
-      p->exact[i] = gas.p / ((gamma - 1) * gas.rho);
-    else
-      return fail(a, child_of(a->node, "quantity"),
-                  "a Riemann problem has density, velocity_x, pressure, energy");
-  }
-  return status;
-}
-
-static int exact_column(const comparer *a, const sph_group *group, profile *p)
-{
-  const char *field = get_text(a->node, "quantity", "");
-  sph_exact_column column = {.eos = *sph_group_eos(group),
-                             .surface = get_number(a->kind, "surface", 0),
-                             .g = get_number(a->kind, "gravity", 0)};
-  column.p_surface = column.eos.p_background;
-  if (!strcmp(field, "pressure"))
-    return sph_exact_column_at(&column, p->n, p->x, NULL, p->exact, a->error);
-  if (!strcmp(field, "density"))
-    return sph_exact_column_at(&column, p->n, p->x, p->exact, NULL, a->error);
-  return fail(a, child_of(a->node, "quantity"), "a column at rest has pressure and density");
-}
-
-static int compare_profile(const comparer *a, sph_case_distance *d)
-{
-  int riemann = !strcmp(a->kind->key, "riemann"), axis = riemann ? 0 : a->c->dim - 1;
-  const sph_group *fluid = NULL, *group;
-  profile p = {0};
-  long n = 0;
-  for (int k = 0; (group = sph_sim_group_get(a->sim, k)); k++) {
-    if (strcmp(sph_group_kind(group), "fluid")) continue;
-    if (!fluid) fluid = group;
-    n += sph_group_count(group);
-  }
-  if (!fluid) return fail(a, a->node, "there is no fluid");
-  int status = profile_new(&p, n, a->error);
-  for (int k = 0; !status && (group = sph_sim_group_get(a->sim, k)); k++)
-    if (!strcmp(sph_group_kind(group), "fluid")) status = gather(a, group, axis, d->window, &p);
-  if (!status) status = riemann ? exact_riemann(a, &p) : exact_column(a, fluid, &p);
-  if (!status) {
-    double scale = get_number(a->node, "value_scale", 1);
-    d->largest = 0;
-    for (long i = 0; i < p.n; i++) d->largest = fmax(d->largest, p.exact[i] / scale);
-    d->unshifted = d->value = sph_case_curve_norm(d->norm, p.n, p.weight, p.run, p.exact) / scale;
-    d->used = d->wanted = p.n;
-  }
-  profile_free(&p);
-  return status;
-}
-
 /* ---- the list */
 
 /* divide_by, in which `largest` may stand. */
@@ -289,32 +153,33 @@ static int divide(const comparer *a, sph_case_distance *d)
   return SPH_OK;
 }
 
-static int measure(const comparer *a, sph_case_distance *d)
+static int measure(const comparer *a, sph_case_distance *d, char note[SPH_CASE_NOTE])
 {
-  int at_end = !strcmp(a->kind->key, "riemann") || !strcmp(a->kind->key, "column");
+  const sph_case_node *at = child_of(a->node, "at");
+  int in_space = sph_case_profile_known(a);
   *d = wanted(a->node);
-  if (at_end && (!strcmp(d->norm, "mean") || !strcmp(d->norm, "arrival")))
-    return fail(a, child_of(a->node, "norm"), "riemann and column know rms, l1, max");
-  int status = at_end ? compare_profile(a, d) : compare_series(a, d);
+  note[0] = 0;
+  if (at && !in_space) return fail(a, at, "at: belongs to solutions in space");
+  int status = in_space ? sph_case_profile_compare(a, d, note) : compare_series(a, d);
   return status ? status : divide(a, d);
 }
 
-static char *note_of(const sph_case_distance *d, sph_error *error)
+static void note_of(const sph_case_distance *d, char note[SPH_CASE_NOTE])
 {
-  char note[160] = "";
   if (d->used < d->wanted)
-    snprintf(note, sizeof note, "the run covers %ld of %ld points of the reference", d->used,
+    snprintf(note, SPH_CASE_NOTE, "the run covers %ld of %ld points of the reference", d->used,
              d->wanted);
   else if (d->offset > 0)
-    snprintf(note, sizeof note, "time offset %.3g; %.3g without", d->shift, d->unshifted);
-  return sph_memory_string(note, error);
+    snprintf(note, SPH_CASE_NOTE, "time offset %.3g; %.3g without", d->shift, d->unshifted);
 }
 
 static int fill(const comparer *a, sph_comparison *to)
 {
   sph_case_distance d;
-  int status = measure(a, &d);
+  char note[SPH_CASE_NOTE];
+  int status = measure(a, &d, note);
   if (status) return status;
+  note_of(&d, note);
   *to = (sph_comparison){.name = get_text(a->node, "name", ""),
                          .reference = get_text(a->node, "source", a->kind->key),
                          .quantity = get_text(a->node, "quantity", ""),
@@ -322,7 +187,7 @@ static int fill(const comparer *a, sph_comparison *to)
                          .value = d.value,
                          .bar = get_number(a->node, "bar", NAN)};
   to->pass = d.used == d.wanted && d.used > 0 && d.value <= to->bar;
-  to->note = note_of(&d, a->error);
+  to->note = sph_memory_string(note, a->error);
   return to->note ? SPH_OK : SPH_ERR_MEMORY;
 }
 
@@ -350,6 +215,7 @@ int sph_case_compare(const sph_case *c, sph_sim *sim, const char *directory, sph
   sph_comparison *all = SPH_NEW(sph_comparison, count, "comparisons", a.error);
   if (!all) return SPH_ERR_MEMORY;
   for (int k = 0; k < count && !status; k++) {
+    a.number = k;
     a.node = comparison(c, k);
     a.kind = child_of(a.node, "reference")->first;
     status = fill(&a, &all[k]);
@@ -369,41 +235,48 @@ void sph_case_compare_free(sph_comparison *list, int n)
   sph_memory_free(list);
 }
 
+/* The run's column and the points of the table. */
+static int plot_table(const comparer *a, const char *png)
+{
+  char run[SPH_PATH], table_path[SPH_PATH], note[SPH_CASE_NOTE];
+  sph_case_distance d;
+  int status = measure(a, &d, note);
+  if (!status) status = sph_file_path(run, a->directory, "series.csv", a->error);
+  if (!status) status = beside(a->c, get_text(a->kind, "file", ""), table_path, a->error);
+  if (status) return status;
+  double time = get_number(a->node, "time_scale", 1);
+  sph_plot_curve curves[] = {{.csv = run,
+                              .x = "time",
+                              .y = get_text(a->node, "quantity", ""),
+                              .x_scale = time,
+                              .y_scale = get_number(a->node, "value_scale", 1),
+                              .x_offset = -d.shift * time,
+                              .label = "this run"},
+                             {.csv = table_path,
+                              .x = get_text(a->kind, "x", NULL),
+                              .y = get_text(a->kind, "y", NULL),
+                              .label = get_text(a->node, "source", "reference"),
+                              .points = 1}};
+  sph_plot_def def = {.title = get_text(a->node, "name", NULL),
+                      .x_label = "scaled time",
+                      .y_label = get_text(a->node, "quantity", "")};
+  return sph_plot_series(curves, 2, &def, png, a->error);
+}
+
 int sph_case_compare_plot(const sph_case *c, int k, const char *directory, char *png, size_t size,
                           sph_error *error)
 {
-  char run[SPH_PATH], table_path[SPH_PATH];
   sph_error own = {0};
-  comparer a = {.c = c, .directory = directory, .error = error ? error : &own};
+  comparer a = {.c = c, .directory = directory, .number = k, .error = error ? error : &own};
   if (!c || !png)
     return sph_error_set(a.error, SPH_ERR_ARGUMENT, "a picture of comparison %d: no %s (NULL)", k,
                          c ? "place for its path" : "case");
   a.node = comparison(c, k);
   a.kind = a.node ? child_of(a.node, "reference")->first : NULL;
-  if (!a.kind || strcmp(a.kind->key, "csv"))
-    return sph_error_set(a.error, SPH_ERR_ARGUMENT, "comparison %d has no table to draw", k);
-  sph_case_distance d;
-  int status = measure(&a, &d);
-  if (!status) status = sph_file_path(run, directory, "series.csv", a.error);
-  if (!status) status = beside(c, get_text(a.kind, "file", ""), table_path, a.error);
-  if (status) return status;
-  double time = get_number(a.node, "time_scale", 1);
-  sph_plot_curve curves[] = {{.csv = run,
-                              .x = "time",
-                              .y = get_text(a.node, "quantity", ""),
-                              .x_scale = time,
-                              .y_scale = get_number(a.node, "value_scale", 1),
-                              .x_offset = -d.shift * time,
-                              .label = "this run"},
-                             {.csv = table_path,
-                              .x = get_text(a.kind, "x", NULL),
-                              .y = get_text(a.kind, "y", NULL),
-                              .label = get_text(a.node, "source", "reference"),
-                              .points = 1}};
-  sph_plot_def def = {.title = get_text(a.node, "name", NULL),
-                      .x_label = "scaled time",
-                      .y_label = get_text(a.node, "quantity", "")};
+  int in_space = a.kind && sph_case_profile_known(&a);
+  if (!in_space && (!a.kind || strcmp(a.kind->key, "csv")))
+    return sph_error_set(a.error, SPH_ERR_ARGUMENT, "comparison %d has no curves to draw", k);
   if ((size_t)snprintf(png, size, "%s/compare_%d.png", directory, k) >= size)
     return sph_error_set(a.error, SPH_ERR_FILE, "%s: path too long", directory);
-  return sph_plot_series(curves, 2, &def, png, a.error);
+  return in_space ? sph_case_profile_plot(&a, png) : plot_table(&a, png);
 }

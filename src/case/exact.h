@@ -60,6 +60,86 @@ typedef struct sph_exact_column {
 int sph_exact_column_at(const sph_exact_column *column, long n, const double *z, double *rho,
                         double *p, sph_error *error);
 
+/* --- Two of them, one above the other: pressure is continuous where they meet --- */
+
+typedef struct sph_exact_layers {
+  sph_eos lower, upper; /* sph_eos_tait or sph_eos_linear */
+  double meet;          /* height where they meet [m] */
+  double surface;       /* height of the upper one's free surface [m], >= meet */
+  double p_surface;     /* pressure there [Pa] */
+  double g;             /* [m/s^2], >= 0 */
+} sph_exact_layers;
+
+/* The column of one of the layers (upper: 0 or 1), for sph_exact_column_at. */
+int sph_exact_layers_column(const sph_exact_layers *layers, int upper, sph_exact_column *column,
+                            sph_error *error);
+
+/* --- Channel: a liquid at rest between walls at y = 0 and y = width; at t = 0 the upper wall begins
+ * to move (Couette), a force along the walls to act (Poiseuille), or both --- */
+
+typedef struct sph_exact_channel {
+  double width; /* [m], > 0 */
+  double nu;    /* kinematic viscosity [m^2/s], > 0 */
+  double speed; /* of the upper wall [m/s] */
+  double force; /* along the walls, per mass [m/s^2] */
+} sph_exact_channel;
+
+/* Velocity v[n] [m/s] along the walls at y[n] [m] at time t >= 0 [s]; outside: that of the wall. */
+int sph_exact_channel_at(const sph_exact_channel *channel, double t, long n, const double *y,
+                         double *v, sph_error *error);
+
+/* --- Heat conduction at rest: a mode in one medium; two media that meet --- */
+
+typedef struct sph_exact_medium {
+  double temperature;  /* at the start [K] */
+  double conductivity; /* [W/m/K], > 0 */
+  double capacity;     /* density times specific heat [J/m^3/K], > 0 */
+} sph_exact_medium;
+
+typedef struct sph_exact_heat_mode {
+  sph_exact_medium medium; /* its temperature: the mean */
+  double amplitude;        /* at the start [K] */
+  double k;                /* wave number [1/m]: T = mean + amplitude sin(k x) */
+} sph_exact_heat_mode;
+
+typedef struct sph_exact_heat_step {
+  sph_exact_medium left, right; /* x < 0 and x > 0, in touch from t = 0 on */
+} sph_exact_heat_step;
+
+/* Temperature T[n] [K] at x[n] [m] at time t >= 0 [s]. */
+int sph_exact_heat_mode_at(const sph_exact_heat_mode *mode, double t, long n, const double *x,
+                           double *T, sph_error *error);
+int sph_exact_heat_step_at(const sph_exact_heat_step *step, double t, long n, const double *x,
+                           double *T, sph_error *error);
+
+/* --- Taylor-Green vortices in 2D, in a periodic box of length 2 pi/k --- */
+
+typedef struct sph_exact_taylor_green {
+  double speed; /* largest, at t = 0 [m/s] */
+  double k;     /* wave number [1/m], > 0 */
+  double nu;    /* kinematic viscosity [m^2/s], >= 0 */
+  double rho;   /* [kg/m^3], > 0 */
+} sph_exact_taylor_green;
+
+typedef struct sph_exact_flow {
+  double v[2], p; /* [m/s], [Pa] with mean 0 */
+} sph_exact_flow;
+
+sph_exact_flow sph_exact_taylor_green_at(const sph_exact_taylor_green *vortices, double t, double x,
+                                         double y);
+
+/* --- Sound of small amplitude in 1D: linear in the amplitude --- */
+
+typedef struct sph_exact_wave {
+  double rho, p, c; /* at rest: density [kg/m^3] > 0, pressure [Pa], sound speed [m/s] > 0 */
+  double amplitude; /* of the density, relative */
+  double k;         /* wave number [1/m], > 0 */
+  int standing;     /* 0: runs along +x */
+} sph_exact_wave;
+
+/* Density, velocity, pressure at x [m] and t [s]. */
+sph_exact_gas sph_exact_wave_at(const sph_exact_wave *wave, double t, double x);
+
 /* --- GSL calls abort() on an error unless its process-wide handler is off: between these two, a
  * lock is held and the handler is off; the user's is put back --- */
 void sph_exact_gsl_begin(void);

@@ -10,12 +10,13 @@
 static const char *const colours[] = {"#31688e", "#d1495b", "#35b779", "#6b4c9a",
                                       "#e08e0b", "#482878", "#666666", "#1b9e77"};
 enum { COLOURS = sizeof colours / sizeof *colours };
+enum { MANY = 200 }; /* points that would hide each other */
 
 static double scale_or_1(double scale) { return scale == 0 ? 1 : scale; }
 
-/* Adds the curve as a block of data; its titles are those of the columns. */
-static int add_curve(const sph_plot_curve *c, sph_text *data, char x_title[128], char y_title[128],
-                     sph_error *error)
+/* Adds the curve as a block of data, *rows long; its titles are those of the columns. */
+static int add_curve(const sph_plot_curve *c, sph_text *data, long *rows, char x_title[128],
+                     char y_title[128], sph_error *error)
 {
   double *x = NULL, *y = NULL, x_scale = scale_or_1(c->x_scale), y_scale = scale_or_1(c->y_scale);
   long n = 0, n_y = 0;
@@ -29,6 +30,7 @@ static int add_curve(const sph_plot_curve *c, sph_text *data, char x_title[128],
     else
       sph_text_add(data, "NaN NaN\n");
   sph_text_add(data, "\n\n");
+  *rows = n;
   sph_memory_free(x);
   sph_memory_free(y);
   return status;
@@ -63,16 +65,17 @@ static void add_head(const sph_plot_def *def, const char *x_title, const char *y
   add_range(script, "y", def->y_min, def->y_max);
 }
 
-static void add_plot(const sph_plot_curve *c, int k, const char *title, sph_text *script)
+static void add_plot(const sph_plot_curve *c, int k, long rows, const char *title, sph_text *script)
 {
   static const int shapes[] = {7, 5, 9, 13,
                                11}; /* gnuplot's filled circle, square, triangle, ... */
   sph_text_add(script, "%s data index %d using 1:2 ", k ? ", \\\n " : "plot", k);
+  const char *colour = colours[(c->colour > 0 ? c->colour - 1 : k) % COLOURS];
   if (c->points)
-    sph_text_add(script, "with points pt %d ps 1.0 lc rgb '%s'", shapes[k % 5],
-                 colours[k % COLOURS]);
+    sph_text_add(script, "with points pt %d ps %s lc rgb '%s'", shapes[k % 5],
+                 rows > MANY ? "0.4" : "1.0", colour);
   else
-    sph_text_add(script, "with lines lw 2.2 lc rgb '%s'", colours[k % COLOURS]);
+    sph_text_add(script, "with lines lw %s lc rgb '%s'", rows > MANY ? "1.5" : "2.2", colour);
   sph_text_add(script, " title ");
   sph_text_gnuplot_string(script, c->label ? c->label : title);
 }
@@ -88,8 +91,10 @@ int sph_plot_series(const sph_plot_curve *curve, int n, const sph_plot_def *def,
   if (n < 1) return sph_error_set(error, SPH_ERR_ARGUMENT, "%d curves to draw: at least 1", n);
   int status = sph_gnuplot_names(&names, png, error);
   for (int k = 0; status == SPH_OK && k < n; k++) {
-    status = add_curve(&curve[k], &data, k ? x_title : x_first, k ? y_title : y_first, error);
-    add_plot(&curve[k], k, k ? y_title : y_first, &curves);
+    long rows = 0;
+    status =
+        add_curve(&curve[k], &data, &rows, k ? x_title : x_first, k ? y_title : y_first, error);
+    add_plot(&curve[k], k, rows, k ? y_title : y_first, &curves);
   }
   if (status == SPH_OK) status = sph_error_set(error, curves.error.status, "%s", curves.error.text);
   if (status == SPH_OK) {

@@ -31,6 +31,9 @@ int sph_snapshot_read(const char *path, const char *field, sph_snapshot *snapsho
                       sph_error *error);
 void sph_snapshot_read_free(sph_snapshot *snapshot);
 
+/* Its time alone [s]. */
+int sph_snapshot_read_time(const char *path, double *time, sph_error *error);
+
 /* The dataset that holds a field of the table ("velocity": "Velocities"). */
 const char *sph_snapshot_dataset(const char *field);
 

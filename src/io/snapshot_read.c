@@ -150,6 +150,22 @@ int sph_snapshot_read(const char *path, const char *field, sph_snapshot *snapsho
   return sph_error_set(error, own.status, "%s", own.text);
 }
 
+int sph_snapshot_read_time(const char *path, double *time, sph_error *error)
+{
+  sph_h5 h5;
+  sph_error own = {0};
+  sph_snapshot snapshot = {0};
+  reader r = {.path = path, .error = &own};
+  sph_h5_enter(&h5);
+  r.file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (r.file < 0) sph_error_set(&own, SPH_ERR_FILE, "%s: no such HDF5 file", path);
+  if (own.status == SPH_OK) read_header(&r, &snapshot);
+  if (r.file >= 0) H5Fclose(r.file);
+  sph_h5_leave(&h5);
+  *time = snapshot.time;
+  return own.status == SPH_OK ? SPH_OK : sph_error_set(error, own.status, "%s", own.text);
+}
+
 void sph_snapshot_read_free(sph_snapshot *snapshot)
 {
   for (int part = 0; part < SPH_PARTS; part++) {

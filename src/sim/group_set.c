@@ -77,12 +77,12 @@ void sph_group_set_pressure(sph_group *group, const double *p)
   }
 }
 
-/* d p/d z = rho g downwards from p(rho0) at the surface, by Runge-Kutta of order 4 in depth: for
- * any inverse rho(p). */
-static double pressure_at(const sph_eos *eos, double depth, double g)
+/* d p/d z = rho g downwards from p at the surface, by Runge-Kutta of order 4 in depth: for any
+ * inverse rho(p). */
+static double pressure_at(const sph_eos *eos, double p, double depth, double g)
 {
   enum { STEPS = 200 };
-  double dz = depth / STEPS, p = eos->p_background;
+  double dz = depth / STEPS;
   for (int k = 0; k < STEPS; k++) {
     double k1 = g * eos->density(eos, p, 0);
     double k2 = g * eos->density(eos, p + dz / 2 * k1, 0);
@@ -95,13 +95,19 @@ static double pressure_at(const sph_eos *eos, double depth, double g)
 
 void sph_group_set_hydrostatic(sph_group *group, int axis, double surface, double g)
 {
+  if (ready(group, "hydrostatic pressure"))
+    sph_group_set_column(group, axis, surface, group->eos.p_background, g);
+}
+
+void sph_group_set_column(sph_group *group, int axis, double surface, double p_surface, double g)
+{
   if (!ready(group, "hydrostatic pressure")) return;
-  if (axis < 0 || axis >= group->dim || !isfinite(surface) || !(isfinite(g) && g >= 0)) {
-    sph_sim_fail(
-        group->sim, SPH_ERR_ARGUMENT,
-        "group %s: hydrostatic along axis %d, surface %g m, g = %g m/s^2; right is 0 <= axis < %d, "
-        "finite, g >= 0",
-        group->name, axis, surface, g, group->dim);
+  if (axis < 0 || axis >= group->dim || !isfinite(surface) || !isfinite(p_surface) ||
+      !(isfinite(g) && g >= 0)) {
+    sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
+                 "group %s: hydrostatic along axis %d, surface %g m, pressure there %g Pa, g = %g "
+                 "m/s^2; right is 0 <= axis < %d, finite, g >= 0",
+                 group->name, axis, surface, p_surface, g, group->dim);
     return;
   }
   if (group->eos.thermal) {
@@ -111,7 +117,8 @@ void sph_group_set_hydrostatic(sph_group *group, int axis, double surface, doubl
   }
   for (long i = 0; i < group->n; i++) {
     double depth = fmax(0, surface - group->own[SPH_POSITION][axis][i]);
-    set_density(group, i, group->eos.density(&group->eos, pressure_at(&group->eos, depth, g), 0));
+    double p = pressure_at(&group->eos, p_surface, depth, g);
+    set_density(group, i, group->eos.density(&group->eos, p, 0));
   }
 }
 

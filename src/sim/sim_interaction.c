@@ -6,9 +6,10 @@
 #include "sim_rhs.h"
 #include "tile_loops.h"
 
+/* A wall around two liquids has the density of one: diffusion would tear off the other. */
 int sph_sim_interaction_same_fluid(const sph_group *target, const sph_group *source)
 {
-  return source->wall || (source->eos.rho0 == target->eos.rho0 && source->eos.c0 == target->eos.c0);
+  return source->eos.rho0 == target->eos.rho0 && source->eos.c0 == target->eos.c0;
 }
 
 static unsigned terms_of(const sph_sim *sim, const sph_group *target, const sph_group *source)

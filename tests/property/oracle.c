@@ -69,12 +69,13 @@ static int near(const oracle *o, long i, long j, pair *ij)
 
 static int is_wall(const oracle *o, long i) { return o->group[o->particle[i].group].wall; }
 
-/* Density diffuses within a fluid and at walls, not between fluids of different rho0 or c0. */
+/* Density diffuses where rho0 and c0 are the same: within a fluid, and at walls of its equation of
+ * state. */
 static int same_fluid(const oracle *o, long i, long j)
 {
   const oracle_eos *a = &o->group[o->particle[i].group].eos;
   const oracle_eos *b = &o->group[o->particle[j].group].eos;
-  return is_wall(o, j) || (a->rho0 == b->rho0 && a->c0 == b->c0);
+  return a->rho0 == b->rho0 && a->c0 == b->c0;
 }
 static const oracle_eos *eos_of(const oracle *o, long i)
 {

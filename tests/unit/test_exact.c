@@ -10,6 +10,7 @@
 #include <gsl/gsl_deriv.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include <gsl/gsl_sf_erf.h>
 
 #include "exact.h"
 
@@ -318,6 +319,231 @@ static void column(void **state)
   assert_int_equal(sph_exact_column_at(&columns[1], 1, &z, &rho, NULL, NULL), SPH_ERR_ARGUMENT);
 }
 
+/* ---- what diffuses: the equation by differences of the solution, its limits, other series */
+
+typedef double field_1d(double t, double x, const void *what);
+
+/* df/dt and d2f/dx2 by central differences of order 4. */
+static void derivatives(field_1d *f, const void *what, double t, double x, double dt, double dx,
+                        double *f_t, double *f_xx)
+{
+  *f_t = (8 * (f(t + dt, x, what) - f(t - dt, x, what)) - f(t + 2 * dt, x, what) +
+          f(t - 2 * dt, x, what)) /
+         (12 * dt);
+  *f_xx = (16 * (f(t, x + dx, what) + f(t, x - dx, what)) - f(t, x + 2 * dx, what) -
+           f(t, x - 2 * dx, what) - 30 * f(t, x, what)) /
+          (12 * dx * dx);
+}
+
+static double channel_velocity(double t, double y, const void *what)
+{
+  double v = NAN;
+  assert_int_equal(sph_exact_channel_at(what, t, 1, &y, &v, NULL), SPH_OK);
+  return v;
+}
+
+/* Couette flow of unit width, nu and speed as a sum of images of the moving wall: no series of
+ * sines. */
+static double couette_by_images(double t, double y)
+{
+  double sum = 0, width = 2 * sqrt(t);
+  for (int k = 0; k < 40; k++)
+    sum += gsl_sf_erfc((2 * k + 1 - y) / width) - gsl_sf_erfc((2 * k + 1 + y) / width);
+  return sum;
+}
+
+static void channel(void **state)
+{
+  (void)state;
+  const sph_exact_channel both = {0.5, 0.3, 2, 4}; /* of all, and of no unit value */
+  for (double t = 0.02; t < 0.8; t *= 1.7)
+    for (double y = 0.05; y < 0.5; y += 0.049) {
+      double v_t, v_yy;
+      derivatives(channel_velocity, &both, t, y, 1e-3 * t, 2e-3, &v_t, &v_yy);
+      assert_near(v_t - both.nu * v_yy, both.force, 1e-5, "dv/dt - nu v'' = force");
+    }
+  for (double y = 0; y <= 0.5; y += 0.05) {
+    double steady = 2 * y / 0.5 + 4 * y * (0.5 - y) / (2 * 0.3);
+    assert_near(channel_velocity(100, y, &both), steady, 1e-14, "steady state");
+  }
+  assert_near(channel_velocity(1e-4, 0.25, &both), 4e-4, 1e-15, "start: force t, far from walls");
+  assert_near(channel_velocity(0, 0.25, &both), 0, 0, "at rest");
+  assert_near(channel_velocity(0.3, 0, &both), 0, 0, "lower wall");
+  assert_near(channel_velocity(0.3, 0.5, &both), 2, 0, "upper wall");
+  assert_near(channel_velocity(0.3, 0.6, &both), 2, 0, "inside the upper wall");
+  const sph_exact_channel couette = {1, 1, 1, 0};
+  for (double t = 1e-5; t < 2; t *= 3)
+    for (double y = 0.02; y < 1; y += 0.07)
+      assert_near(channel_velocity(t, y, &couette), couette_by_images(t, y), 1e-14, "images");
+  const sph_exact_channel morris = {1e-3, 1e-6, 0, 1e-4}; /* V_max = 1.25e-5 m/s (1997) */
+  assert_near(channel_velocity(10, 0.5e-3, &morris), 1.25e-5, 1e-9, "Morris (1997)");
+}
+
+static void channel_refusals(void **state)
+{
+  (void)state;
+  const sph_exact_channel bad[] = {{0, 1, 1, 1},
+                                   {1, -1, 1, 1},
+                                   {1, 1, NAN, 1},
+                                   {1, 1, 1, INFINITY}};
+  const sph_exact_channel good = {1, 1, 1, 1};
+  sph_error error = {0};
+  double y = 0.5, v;
+  for (int k = 0; k < 4; k++)
+    assert_int_equal(sph_exact_channel_at(&bad[k], 1, 1, &y, &v, NULL), SPH_ERR_ARGUMENT);
+  assert_int_equal(sph_exact_channel_at(&good, -1, 1, &y, &v, &error), SPH_ERR_ARGUMENT);
+  assert_non_null(strstr(error.text, "t = -1 s"));
+}
+
+static double mode_temperature(double t, double x, const void *what)
+{
+  double T = NAN;
+  assert_int_equal(sph_exact_heat_mode_at(what, t, 1, &x, &T, NULL), SPH_OK);
+  return T;
+}
+
+static double step_temperature(double t, double x, const void *what)
+{
+  double T = NAN;
+  assert_int_equal(sph_exact_heat_step_at(what, t, 1, &x, &T, NULL), SPH_OK);
+  return T;
+}
+
+static void heat(void **state)
+{
+  (void)state;
+  const sph_exact_heat_mode mode = {{300, 2, 5}, 7, 3}; /* alpha = 0.4 */
+  const sph_exact_heat_step step = {{400, 3, 2}, {290, 0.5, 8}};
+  const double alpha[] = {3 / 2.0, 0.5 / 8};
+  double T_t, T_xx;
+  for (double t = 0.1; t < 2; t *= 1.9)
+    for (double x = -1.03; x < 1.1; x += 0.1) {
+      derivatives(mode_temperature, &mode, t, x, 1e-3 * t, 4e-3, &T_t, &T_xx);
+      assert_near(T_t, 0.4 * T_xx, 1e-5, "mode: dT/dt = alpha T''");
+      derivatives(step_temperature, &step, t, x, 1e-3 * t, 4e-3, &T_t, &T_xx);
+      assert_near(T_t, alpha[x > 0] * T_xx, 1e-4, "two media: dT/dt = alpha T''");
+      double eta = x / (2 * sqrt(alpha[x > 0] * t));
+      double far = x > 0 ? 290 : 400, middle = step_temperature(t, 0, &step);
+      assert_near(step_temperature(t, x, &step), far + (middle - far) * gsl_sf_erfc(fabs(eta)),
+                  1e-12 * far, "two media: GSL's erfc");
+    }
+  assert_near(mode_temperature(0, 0.2, &mode), 300 + 7 * sin(0.6), 1e-12, "mode: start");
+  /* Where the media meet, temperature and heat flux are continuous. */
+  const double t = 0.3, d = 1e-6;
+  double left = (step_temperature(t, -d, &step) - step_temperature(t, -2 * d, &step)) / d;
+  double right = (step_temperature(t, 2 * d, &step) - step_temperature(t, d, &step)) / d;
+  assert_near(step_temperature(t, -1e-12, &step), step_temperature(t, 1e-12, &step), 1e-9, "T");
+  assert_near(3 * left / (0.5 * right), 1, 1e-6, "flux");
+  assert_near(step_temperature(0, -0.1, &step), 400, 0, "two media: start, left");
+  assert_near(step_temperature(0, 0.1, &step), 290, 0, "two media: start, right");
+  /* What one side loses the other gains: heat = capacity times the integral of T - T(0). */
+  double lost = 0, gained = 0, dx = 2e-4;
+  for (double x = dx / 2; x < 12; x += dx) {
+    lost += 2 * (400 - step_temperature(t, -x, &step)) * dx;
+    gained += 8 * (step_temperature(t, x, &step) - 290) * dx;
+  }
+  assert_near(lost / gained, 1, 1e-6, "energy");
+}
+
+static void heat_refusals(void **state)
+{
+  (void)state;
+  sph_exact_heat_step step = {{400, 3, 2}, {290, 0.5, 0}};
+  sph_exact_heat_mode mode = {{300, -2, 5}, 7, 3};
+  sph_error error = {0};
+  double x = 0.5, T;
+  assert_int_equal(sph_exact_heat_step_at(&step, 1, 1, &x, &T, &error), SPH_ERR_ARGUMENT);
+  assert_non_null(strstr(error.text, "right"));
+  assert_int_equal(sph_exact_heat_mode_at(&mode, 1, 1, &x, &T, NULL), SPH_ERR_ARGUMENT);
+  mode.medium.conductivity = 2;
+  assert_int_equal(sph_exact_heat_mode_at(&mode, NAN, 1, &x, &T, NULL), SPH_ERR_ARGUMENT);
+}
+
+/* ---- flow and sound: the equations that they solve, by differences */
+
+/* Navier and Stokes: dv/dt + v grad v + grad p/rho - nu laplacian v = 0, div v = 0. */
+static void taylor_green(void **state)
+{
+  (void)state;
+  const sph_exact_taylor_green f = {1.3, 2.1, 0.07, 900};
+  const double e = 1e-3;
+#define AT(t, x, y) sph_exact_taylor_green_at(&f, t, x, y)
+  for (double x = 0.1; x < 3; x += 0.37)
+    for (double y = 0.2; y < 3; y += 0.41) {
+      const double t = 0.6;
+      sph_exact_flow here = AT(t, x, y), east = AT(t, x + e, y), west = AT(t, x - e, y),
+                     north = AT(t, x, y + e), south = AT(t, x, y - e), late = AT(t + e, x, y),
+                     early = AT(t - e, x, y);
+      const double p_of[2] = {east.p - west.p, north.p - south.p};
+      assert_near((east.v[0] - west.v[0] + north.v[1] - south.v[1]) / (2 * e), 0, 1e-9, "div v");
+      for (int d = 0; d < 2; d++) {
+        double change = (late.v[d] - early.v[d]) / (2 * e);
+        double advection =
+            (here.v[0] * (east.v[d] - west.v[d]) + here.v[1] * (north.v[d] - south.v[d])) / (2 * e);
+        double laplacian =
+            (east.v[d] + west.v[d] + north.v[d] + south.v[d] - 4 * here.v[d]) / (e * e);
+        assert_near(change + advection + p_of[d] / (2 * e * f.rho) - f.nu * laplacian, 0, 2e-5,
+                    "momentum");
+      }
+    }
+  assert_near(AT(0, M_PI / (2 * 2.1), 0).v[1], 1.3, 1e-15, "largest speed");
+#undef AT
+}
+
+/* d rho/dt = -rho0 dv/dx, rho0 dv/dt = -dp/dx, dp = c^2 d rho. */
+static void wave(void **state)
+{
+  (void)state;
+  const double e = 1e-4, a = 1e-3;
+  for (int standing = 0; standing < 2; standing++) {
+    const sph_exact_wave w = {1.2, 5, 3, a, 2.2, standing};
+#define AT(t, x) sph_exact_wave_at(&w, t, x)
+    for (double x = 0; x < 3; x += 0.17)
+      for (double t = 0.1; t < 2; t += 0.23) {
+        sph_exact_gas late = AT(t + e, x), early = AT(t - e, x), east = AT(t, x + e),
+                      west = AT(t, x - e), here = AT(t, x);
+        assert_near((late.rho - early.rho + 1.2 * (east.u - west.u)) / (2 * e), 0, 1e-6 * a,
+                    "continuity");
+        assert_near((1.2 * (late.u - early.u) + east.p - west.p) / (2 * e), 0, 1e-5 * a,
+                    "momentum");
+        assert_near(here.p - 5, 9 * (here.rho - 1.2), 1e-14, "c^2");
+        assert_near(AT(t + 2 * M_PI / (3 * 2.2), x).rho, here.rho, 1e-15, "period");
+      }
+    assert_near(AT(0, 0).rho, 1.2 * (1 + a), 1e-15, "crest");
+    assert_near(AT(0, 0.3).u, standing ? 0 : 3 * a * cos(0.66), 1e-17, "velocity at the start");
+#undef AT
+  }
+}
+
+/* ---- two layers: balance in each, one pressure where they meet */
+
+static void layers(void **state)
+{
+  (void)state;
+  sph_exact_layers l = {sph_eos_tait(1000, 40, 7), sph_eos_tait(800, 45, 1.4), 0.5, 1, 0, 9.81};
+  sph_exact_column lower, upper;
+  assert_int_equal(sph_exact_layers_column(&l, 0, &lower, NULL), SPH_OK);
+  assert_int_equal(sph_exact_layers_column(&l, 1, &upper, NULL), SPH_OK);
+  assert_near(pressure_at(1, &upper), 0, 0, "at the surface");
+  assert_near(pressure_at(0.5, &lower), pressure_at(0.5, &upper), 1e-9, "where they meet");
+  assert_near(pressure_at(0.5, &upper), 800 * 9.81 * 0.5, 5, "weight of the upper one");
+  assert_near(pressure_at(0, &lower), 1800 * 9.81 * 0.5, 30, "weight of both");
+  for (int k = 0; k < 2; k++)
+    for (double z = 0.5 * k + 0.03; z < 0.5 * k + 0.48; z += 0.06) {
+      double rho, slope, error;
+      sph_exact_column *c = k ? &upper : &lower;
+      gsl_function f = {pressure_at, c};
+      assert_int_equal(sph_exact_column_at(c, 1, &z, &rho, NULL, NULL), SPH_OK);
+      gsl_deriv_central(&f, z, 1e-2, &slope, &error);
+      assert_near(slope / (rho * c->g), -1, 1e-8, "dp/dz = -rho g");
+      assert_near(rho, k ? 800 : 1000, 8, "density");
+    }
+  sph_error error = {0};
+  l.surface = 0.4;
+  assert_int_equal(sph_exact_layers_column(&l, 0, &lower, &error), SPH_ERR_ARGUMENT);
+  assert_non_null(strstr(error.text, "0.4"));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -331,6 +557,13 @@ int main(void)
       cmocka_unit_test(drop_invariants),
       cmocka_unit_test(drop_refusals),
       cmocka_unit_test(column),
+      cmocka_unit_test(channel),
+      cmocka_unit_test(channel_refusals),
+      cmocka_unit_test(heat),
+      cmocka_unit_test(heat_refusals),
+      cmocka_unit_test(taylor_green),
+      cmocka_unit_test(wave),
+      cmocka_unit_test(layers),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
