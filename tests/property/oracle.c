@@ -5,34 +5,85 @@
 
 static const real pi = 3.14159265358979323846264338327950288L;
 
-/* ---- kernels:  W = sigma/h^d w(q),  F = W'/r = sigma/h^(d+2) f(q),  q = r/h < 2 ---- */
+/* ---- kernels:  W = sigma/h^d w(q),  F = W'/r = sigma/h^(d+2) f(q),  f = w'/q,  q = r/h < kappa
+ * ---- */
 
+static real kappa(const oracle *o)
+{
+  return o->kernel == ORACLE_QUINTIC || o->kernel == ORACLE_GAUSSIAN || o->kernel == ORACLE_SHIFTED
+             ? 3
+             : 2;
+}
+
+/* 1/sigma of the Gaussians is their integral up to 3. */
 static real sigma(const oracle *o)
 {
-  if (o->cubic) return o->dim == 1 ? 2 / 3.0L : o->dim == 2 ? 10 / (7 * pi) : 1 / pi;
-  return o->dim == 1 ? 5 / 8.0L : o->dim == 2 ? 7 / (4 * pi) : 21 / (16 * pi);
+  real root = sqrtl(pi) * erfl(3), e = expl(-9);
+  const real table[][3] = {
+      [ORACLE_WENDLAND_C2] = {5 / 8.0L, 7 / (4 * pi), 21 / (16 * pi)},
+      [ORACLE_WENDLAND_C4] = {3 / 4.0L, 9 / (4 * pi), 495 / (256 * pi)},
+      [ORACLE_WENDLAND_C6] = {55 / 64.0L, 39 / (14 * pi), 1365 / (512 * pi)},
+      [ORACLE_CUBIC] = {2 / 3.0L, 10 / (7 * pi), 1 / pi},
+      [ORACLE_QUINTIC] = {1 / 120.0L, 7 / (478 * pi), 1 / (120 * pi)},
+      [ORACLE_GAUSSIAN] = {1 / root, 1 / (pi * (1 - e)), 1 / (pi * (root - 6 * e))},
+      [ORACLE_SHIFTED] = {1 / (root - 6 * e), 1 / (pi * (1 - 10 * e)), 1 / (pi * (root - 42 * e))},
+      [ORACLE_SPIKY] = {1 / 8.0L, 5 / (16 * pi), 15 / (64 * pi)},
+  };
+  return table[o->kernel][o->dim - 1];
+}
+
+static real shape(const oracle *o, real q)
+{
+  real t = 1 - q / 2, a = 3 - q, b = q < 2 ? 2 - q : 0, c = q < 1 ? 1 - q : 0;
+  int line = o->dim == 1;
+  switch (o->kernel) {
+  case ORACLE_WENDLAND_C2: return line ? powl(t, 3) * (1 + 3 * q / 2) : powl(t, 4) * (1 + 2 * q);
+  case ORACLE_WENDLAND_C4:
+    return line ? powl(t, 5) * (1 + 5 * q / 2 + 2 * q * q)
+                : powl(t, 6) * (1 + 3 * q + 35 * q * q / 12);
+  case ORACLE_WENDLAND_C6:
+    return line ? powl(t, 7) * (1 + 7 * q / 2 + 19 * q * q / 4 + 21 * q * q * q / 8)
+                : powl(t, 8) * (1 + 4 * q + 25 * q * q / 4 + 4 * q * q * q);
+  case ORACLE_CUBIC: return q < 1 ? 1 - 3 * q * q / 2 + 3 * q * q * q / 4 : powl(2 - q, 3) / 4;
+  case ORACLE_QUINTIC: return powl(a, 5) - 6 * powl(b, 5) + 15 * powl(c, 5);
+  case ORACLE_GAUSSIAN: return expl(-q * q);
+  case ORACLE_SHIFTED: return expl(-q * q) - expl(-9);
+  case ORACLE_SPIKY: return powl(2 - q, 3);
+  }
+  return 0;
+}
+
+static real shape_f(const oracle *o, real q)
+{
+  real t = 1 - q / 2, a = 3 - q, b = q < 2 ? 2 - q : 0;
+  int line = o->dim == 1;
+  switch (o->kernel) {
+  case ORACLE_WENDLAND_C2: return line ? -3 * t * t : -5 * t * t * t;
+  case ORACLE_WENDLAND_C4:
+    return line ? -7 * (1 + 2 * q) * powl(t, 4) / 2 : -14 * (1 + 5 * q / 2) * powl(t, 5) / 3;
+  case ORACLE_WENDLAND_C6:
+    return line ? -3 * (12 + 36 * q + 35 * q * q) * powl(t, 6) / 8
+                : -11 * (2 + 7 * q + 8 * q * q) * powl(t, 7) / 4;
+  case ORACLE_CUBIC: return q < 1 ? -3 + 9 * q / 4 : -3 * (2 - q) * (2 - q) / (4 * q);
+  case ORACLE_QUINTIC:
+    return q < 1 ? -120 + 120 * q * q - 50 * q * q * q : (-5 * powl(a, 4) + 30 * powl(b, 4)) / q;
+  case ORACLE_GAUSSIAN:
+  case ORACLE_SHIFTED: return -2 * expl(-q * q);
+  case ORACLE_SPIKY: return q > 0 ? -3 * (2 - q) * (2 - q) / q : 0; /* grad W = 0 there */
+  }
+  return 0;
 }
 
 real oracle_w(const oracle *o, real r)
 {
-  real q = r / o->h, t = 1 - q / 2, w;
-  if (q >= 2) return 0;
-  if (o->cubic)
-    w = q < 1 ? 1 - 3 * q * q / 2 + 3 * q * q * q / 4 : powl(2 - q, 3) / 4;
-  else
-    w = o->dim == 1 ? powl(t, 3) * (1 + 3 * q / 2) : powl(t, 4) * (1 + 2 * q);
-  return sigma(o) / powl(o->h, o->dim) * w;
+  real q = r / o->h;
+  return q < kappa(o) ? sigma(o) / powl(o->h, o->dim) * shape(o, q) : 0;
 }
 
 real oracle_f(const oracle *o, real r)
 {
-  real q = r / o->h, t = 1 - q / 2, f;
-  if (q >= 2) return 0;
-  if (o->cubic)
-    f = q < 1 ? -3 + 9 * q / 4 : -3 * (2 - q) * (2 - q) / (4 * q);
-  else
-    f = o->dim == 1 ? -3 * t * t : -5 * t * t * t;
-  return sigma(o) / powl(o->h, o->dim + 2) * f;
+  real q = r / o->h;
+  return q < kappa(o) ? sigma(o) / powl(o->h, o->dim + 2) * shape_f(o, q) : 0;
 }
 
 /* ---- a pair: r_ij = x_i - x_j of the nearest image, grad W = r_ij F ---- */
@@ -60,7 +111,7 @@ static int near(const oracle *o, long i, long j, pair *ij)
   for (int k = 0; k < o->dim; k++)
     if (o->periodic[k]) ij->d[k] -= o->length[k] * roundl(ij->d[k] / o->length[k]);
   ij->r = norm(ij->d);
-  if (ij->r >= 2 * o->h) return 0;
+  if (ij->r >= kappa(o) * o->h) return 0;
   ij->f = oracle_f(o, ij->r);
   for (int k = 0; k < 3; k++) ij->grad_w[k] = ij->d[k] * ij->f;
   ij->grad = ij->r * fabsl(ij->f);
@@ -147,7 +198,7 @@ static void wall(oracle *o, long w)
     sum_w += weight;
     sum_p += weight * (fluid->p + fluid->rho * dot(down, wf.d));
     sum_u += weight * fluid->u;
-    real edge = 1 + 4 / (1 - wf.r / (2 * o->h)); /* W vanishes as t^4 (t^3) at the edge */
+    real edge = 1 + wf.r * wf.grad / weight; /* W vanishes there, and r is rounded */
     size += weight * edge * (fluid->p_size + fluid->rho * norm(down) * wf.r);
     for (int k = 0; k < 3; k++) sum_v[k] += weight * fluid->v[k];
   }

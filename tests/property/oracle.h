@@ -41,13 +41,25 @@ typedef struct oracle_particle {
   real gradient_size, a_size, drho_size, du_size;
 } oracle_particle;
 
+enum oracle_kernel {
+  ORACLE_WENDLAND_C2,
+  ORACLE_WENDLAND_C4,
+  ORACLE_WENDLAND_C6,
+  ORACLE_CUBIC,
+  ORACLE_QUINTIC,
+  ORACLE_GAUSSIAN,
+  ORACLE_SHIFTED,
+  ORACLE_SPIKY
+};
+enum { ORACLE_KERNELS = ORACLE_SPIKY + 1 };
 enum { ORACLE_GROUPS = 4 };
 enum oracle_row { ORACLE_NONE, ORACLE_C1, ORACLE_C2 };            /* density and its partners */
 enum oracle_delta { ORACLE_OFF, ORACLE_MOLTENI, ORACLE_ANTUONO }; /* density diffusion */
 
 typedef struct oracle {
-  int dim, cubic; /* cubic: cubic spline, else Wendland C2 */
-  real h;         /* [m] */
+  int dim;
+  enum oracle_kernel kernel;
+  real h; /* [m] */
   int periodic[3];
   real length[3]; /* [m] */
   enum oracle_row continuity, pressure;

@@ -12,6 +12,12 @@
 
 static const double rho0_of_all = 1000; /* [kg/m^3] */
 
+static const char *const kernels[ORACLE_KERNELS] = {
+    [ORACLE_WENDLAND_C2] = "wendland-c2",  [ORACLE_WENDLAND_C4] = "wendland-c4",
+    [ORACLE_WENDLAND_C6] = "wendland-c6",  [ORACLE_CUBIC] = "cubic-spline",
+    [ORACLE_QUINTIC] = "quintic-spline",   [ORACLE_GAUSSIAN] = "gaussian",
+    [ORACLE_SHIFTED] = "gaussian-shifted", [ORACLE_SPIKY] = "spiky"};
+
 double scene_random(unsigned long *state)
 {
   uint64_t z = *state += 0x9e3779b97f4a7c15u; /* splitmix64 */
@@ -106,8 +112,10 @@ void scene_make(scene *s, const scene_def *def)
 {
   unsigned long state = def->seed;
   long cells = 1, i = 0;
-  *s = (scene){.dx = 0.1, .h_over_dx = def->cubic ? 1.3 : 1.5, .thermal = def->thermal};
-  s->o.dim = def->dim, s->o.cubic = def->cubic;
+  int wide = sph_kernel_support(sph_kernel_find(kernels[def->kernel])) > 2; /* in small boxes */
+  double h_over_dx = wide ? 1.1 : def->kernel == ORACLE_CUBIC ? 1.3 : 1.5;
+  *s = (scene){.dx = 0.1, .h_over_dx = h_over_dx, .thermal = def->thermal};
+  s->o.dim = def->dim, s->o.kernel = (enum oracle_kernel)def->kernel;
   s->o.h = s->h_over_dx * s->dx;
   for (int k = 0; k < def->dim; k++) {
     cells *= def->n;
@@ -233,7 +241,7 @@ sph_sim *scene_sim(scene *s, scene_options options)
   const oracle *o = &s->o;
   sph_sim_def def = {.dim = o->dim,
                      .dx = s->dx,
-                     .kernel = o->cubic ? "cubic-spline" : "wendland-c2",
+                     .kernel = kernels[o->kernel],
                      .h_over_dx = s->h_over_dx,
                      .threads = options.threads,
                      .skin = options.skin,

@@ -6,7 +6,7 @@
 #include "sphode.h"
 
 typedef struct scene_def {
-  int dim, cubic;
+  int dim, kernel; /* kernel: enum oracle_kernel */
   int n;           /* cells of size dx along each direction; 8 or more */
   int periodic[3]; /* where it is not, the cloud ends */
   int random;      /* 1: points anywhere, not closer than 0.3 dx; 0: a lattice with 20 % jitter */

@@ -59,7 +59,10 @@ static void choose_terms(scene *s, int mix)
 /* Scene number k of a kind; every combination of choices turns up over the numbers. */
 static scene_def choose_scene(int dim, int k, int walls, int thermal)
 {
-  scene_def def = {.dim = dim, .cubic = k % 2, .walls = walls, .thermal = thermal};
+  scene_def def = {.dim = dim,
+                   .kernel = (k + k / ORACLE_KERNELS) % ORACLE_KERNELS,
+                   .walls = walls,
+                   .thermal = thermal};
   def.n = dim == 1 ? 40 : dim == 2 ? 14 : walls ? 9 : 8;
   def.seed = (unsigned long)(1000 * dim + 100 * walls + 50 * thermal + k);
   unsigned long state = def.seed;
@@ -97,7 +100,7 @@ static void all_scenes(int walls, int thermal)
 {
   worst = 0;
   for (int dim = 1; dim <= 3; dim++)
-    for (int k = 0; k < 12; k++) {
+    for (int k = 0; k < 2 * ORACLE_KERNELS; k++) {
       scene_def def = choose_scene(dim, k, walls, thermal);
       check(&def, k);
     }
@@ -112,11 +115,10 @@ static void liquids_between_walls(void **state) { (void)state, all_scenes(2, 0);
 static void gases_between_walls(void **state) { (void)state, all_scenes(2, 1); }
 
 /* Every instruction set that this processor runs. */
-static void all_instruction_sets(void **state)
+static void instruction_sets(int dim, int kernel)
 {
-  (void)state;
-  scene_def def = {
-      .dim = 2, .n = 14, .walls = 2, .fluids = 2, .no_slip = 1, .seed = 5, .periodic = {1}};
+  scene_def def = {.dim = dim, .kernel = kernel, .n = dim == 3 ? 9 : 14, .walls = 2, .fluids = 2};
+  def.no_slip = 1, def.seed = 5, def.periodic[0] = dim > 1;
   scene s;
   scene_make(&s, &def);
   choose_terms(&s, 2);
@@ -133,6 +135,13 @@ static void all_instruction_sets(void **state)
   }
   assert_in_range(tried, 2, SPH_ISA_COUNT);
   scene_free(&s);
+}
+
+static void all_instruction_sets(void **state)
+{
+  (void)state;
+  for (int dim = 1; dim <= 3; dim++)
+    for (int k = 0; k < ORACLE_KERNELS; k++) instruction_sets(dim, k);
 }
 
 /* What the library shows after a step, for the oracle. */
