@@ -168,6 +168,22 @@ static real density_of(const oracle_eos *eos, real p, real u)
   return 0;
 }
 
+/* rho_i = sum m_j W_ij, itself included; a wall counts with its density at rest. */
+static void densities(oracle *o)
+{
+  for (long i = 0; o->summed && i < o->n; i++) {
+    oracle_particle *it = &o->particle[i];
+    pair ij;
+    if (is_wall(o, i)) continue;
+    it->rho = 0;
+    for (long j = 0; j < o->n; j++) {
+      const oracle_particle *other = &o->particle[j];
+      if (!near(o, i, j, &ij)) continue;
+      it->rho += other->m * oracle_w(o, ij.r);
+    }
+  }
+}
+
 static void materials(oracle *o)
 {
   for (long i = 0; i < o->n; i++) {
@@ -175,6 +191,10 @@ static void materials(oracle *o)
     if (is_wall(o, i)) continue;
     pressure_of(eos_of(o, i), it);
     it->condition = 1;
+    if (o->summed) it->condition = 4, it->p_size *= 4 * eos_of(o, i)->gamma;
+    if (eos_of(o, i)->c_v > 0) it->T = it->u / eos_of(o, i)->c_v;
+    it->T_size = fabsl(it->T);
+    it->phi = powl(it->rho, o->exponent);
     for (int k = 0; k < 3; k++) it->v_viscous[k] = it->v[k];
   }
 }
@@ -188,7 +208,7 @@ static void wall(oracle *o, long w)
 {
   oracle_particle *it = &o->particle[w];
   const oracle_group *group = &o->group[it->group];
-  real down[3], sum_w = 0, sum_p = 0, sum_u = 0, size = 0, sum_v[3] = {0};
+  real down[3], sum_w = 0, sum_p = 0, sum_u = 0, sum_T = 0, size = 0, sum_v[3] = {0};
   pair wf;
   difference(o->g, group->acceleration, down);
   for (long f = 0; f < o->n; f++) {
@@ -198,6 +218,7 @@ static void wall(oracle *o, long w)
     sum_w += weight;
     sum_p += weight * (fluid->p + fluid->rho * dot(down, wf.d));
     sum_u += weight * fluid->u;
+    sum_T += weight * fluid->T;
     real edge = 1 + wf.r * wf.grad / weight; /* W vanishes there, and r is rounded */
     size += weight * edge * (fluid->p_size + fluid->rho * norm(down) * wf.r);
     for (int k = 0; k < 3; k++) sum_v[k] += weight * fluid->v[k];
@@ -206,12 +227,15 @@ static void wall(oracle *o, long w)
   it->p_size = sum_w > 0 ? size / sum_w : 0;
   if (!group->tension && it->p < 0) it->p = 0;
   it->u = sum_w > 0 ? sum_u / sum_w : 0;
+  it->T = sum_w > 0 ? 2 * group->temperature - sum_T / sum_w : 0;
+  it->T_size = sum_w > 0 ? 2 * group->temperature + 4 * sum_T / sum_w : 0;
   it->rho = group->rho0;
   it->condition = group->eos.kind == ORACLE_IDEAL_GAS && it->p > 0 ? 1 + it->p_size / it->p : 1;
   if (group->eos.kind != ORACLE_IDEAL_GAS || (it->p > 0 && it->u > 0))
     it->rho = density_of(&group->eos, it->p, it->u);
   if (it->volume == 0) it->volume = it->m / group->rho0; /* its place on the lattice */
   it->m = it->rho * it->volume;
+  it->phi = powl(it->rho, o->exponent);
   real p = it->p, p_size = it->p_size;
   pressure_of(&group->eos, it); /* for c */
   it->p = p, it->p_size = p_size;
@@ -280,28 +304,41 @@ static void gradient(oracle *o, long i)
 /* C1:  drho = sum m_j v_ij.grad W,          a = - sum m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W,
  *      du = p_i/rho_i^2 sum m_j v_ij.grad W
  * C2:  drho = rho_i sum V_j v_ij.grad W,    a = - sum m_j (p_i + p_j)/(rho_i rho_j) grad W,
- *      du = p_i/rho_i sum V_j v_ij.grad W */
+ *      du = p_i/rho_i sum V_j v_ij.grad W
+ * phi: drho = phi_i sum m_j/phi_j v_ij.grad W,
+ *      a = - sum m_j (p_i/rho_i^2 phi_i/phi_j + p_j/rho_j^2 phi_j/phi_i) grad W,
+ *      du = p_i/rho_i^2 phi_i sum m_j/phi_j v_ij.grad W */
+static real density_factor(enum oracle_row row, const oracle_particle *i, const oracle_particle *j)
+{
+  if (row == ORACLE_C1) return j->m;
+  return row == ORACLE_C2 ? i->rho * j->m / j->rho : i->phi * j->m / j->phi;
+}
+
+/* What multiplies p of i (of j: with i and j exchanged). */
+static real pressure_factor(enum oracle_row row, const oracle_particle *i, const oracle_particle *j)
+{
+  if (row == ORACLE_C1) return 1 / (i->rho * i->rho);
+  return row == ORACLE_C2 ? 1 / (i->rho * j->rho) : i->phi / (i->rho * i->rho * j->phi);
+}
+
 static void compression(const oracle *o, oracle_particle *i, const oracle_particle *j,
                         const pair *ij)
 {
-  real v[3], factor;
+  real v[3];
   difference(i->v, j->v, v);
-  real rate = dot(v, ij->grad_w);
-  real size = (norm(i->v) + norm(j->v)) * ij->grad * j->condition;
-  if (o->continuity != ORACLE_NONE) {
-    factor = o->continuity == ORACLE_C1 ? j->m : i->rho * j->m / j->rho;
+  real rate = dot(v, ij->grad_w), condition = i->condition * j->condition;
+  real size = (norm(i->v) + norm(j->v)) * ij->grad * condition;
+  if (o->continuity != ORACLE_NONE && !o->summed) {
+    real factor = density_factor(o->continuity, i, j);
     i->drho += factor * rate, i->drho_size += factor * size;
   }
   if (o->pressure == ORACLE_NONE) return;
-  int s = o->pressure == ORACLE_C1;
-  factor =
-      s ? i->p / (i->rho * i->rho) + j->p / (j->rho * j->rho) : (i->p + j->p) / (i->rho * j->rho);
-  for (int k = 0; k < 3; k++) i->a[k] -= j->m * factor * ij->grad_w[k];
-  factor = s ? i->p_size / (i->rho * i->rho) + j->p_size / (j->rho * j->rho)
-             : (i->p_size + j->p_size) / (i->rho * j->rho);
-  i->a_size += j->m * factor * ij->grad * j->condition;
-  factor = s ? j->m / (i->rho * i->rho) : j->m / (i->rho * j->rho);
-  i->du += i->p * factor * rate, i->du_size += i->p_size * factor * size;
+  real of_i = pressure_factor(o->pressure, i, j), of_j = pressure_factor(o->pressure, j, i);
+  real both = i->p * of_i + j->p * of_j, both_size = i->p_size * of_i + j->p_size * of_j;
+  for (int k = 0; k < 3; k++) i->a[k] -= j->m * both * ij->grad_w[k];
+  i->a_size += j->m * both_size * ij->grad * condition;
+  real per_p = density_factor(o->pressure, i, j) / (i->rho * i->rho);
+  i->work += per_p * rate, i->work_size += per_p * size; /* times p, or T dp/dT */
 }
 
 /* Monaghan (1992):  a = - sum m_j Pi grad W,  du = 1/2 sum m_j Pi v_ij.grad W,
@@ -317,8 +354,77 @@ static void viscosity(const oracle *o, oracle_particle *i, const oracle_particle
   real Pi_size = (o->alpha * c * mu_size + o->beta * mu_size * mu_size) / rho * j->condition;
   for (int k = 0; k < 3; k++) i->a[k] -= j->m * Pi * ij->grad_w[k];
   i->a_size += j->m * Pi_size * ij->grad;
-  i->du += j->m * Pi * dot(v, ij->grad_w) / 2;
-  i->du_size += j->m * Pi_size * speed * ij->grad / 2;
+  i->heat += j->m * Pi * dot(v, ij->grad_w) / 2;
+  i->heat_size += j->m * Pi_size * speed * ij->grad / 2;
+}
+
+/* Monaghan (1997):  Pi = - alpha/2 (c_i + c_j - beta w) w/rho where w = v.r/r < 0. */
+static void signal_viscosity(const oracle *o, oracle_particle *i, const oracle_particle *j,
+                             const pair *ij)
+{
+  real v[3], rho = (i->rho + j->rho) / 2, speed = norm(i->v_viscous) + norm(j->v_viscous);
+  difference(i->v_viscous, j->v_viscous, v);
+  real w = dot(v, ij->d) / ij->r;
+  if (w >= 0) return;
+  real Pi = -o->signal_alpha / 2 * (i->c + j->c - o->signal_beta * w) * w / rho;
+  real Pi_size = o->signal_alpha / 2 * (i->c + j->c + o->signal_beta * speed) * speed / rho;
+  Pi_size *= i->condition * j->condition;
+  for (int k = 0; k < 3; k++) i->a[k] -= j->m * Pi * ij->grad_w[k];
+  i->a_size += j->m * Pi_size * ij->grad;
+  i->heat += j->m * Pi * dot(v, ij->grad_w) / 2;
+  i->heat_size += j->m * Pi_size * speed * ij->grad / 2;
+}
+
+/* r^2/(r^2 + 0.01 h^2) for the kernel whose F is singular. */
+static real regular(const oracle *o, const pair *ij)
+{
+  real r2 = ij->r * ij->r;
+  return o->kernel == ORACLE_SPIKY ? r2 / (r2 + o->h * o->h / 100) : 1;
+}
+
+/* Morris (1997):  a = sum m_j (eta_i + eta_j)/(rho_i rho_j) F v_ij;
+ * Monaghan, Cleary & Gingold:  a = 2 (d + 2) sum m_j 2 eta_i eta_j/(eta_i + eta_j)/(rho_i rho_j)
+ *   (v_ij.r)/r^2 grad W;  both heat by half of their work.  A wall has the viscosity of i. */
+static void laminar(const oracle *o, real eta_i, real eta_j, oracle_particle *i,
+                    const oracle_particle *j, const pair *ij)
+{
+  real v[3], force[3], per_mass = j->m / (i->rho * j->rho) * regular(o, ij);
+  real speed = norm(i->v_viscous) + norm(j->v_viscous), size;
+  difference(i->v_viscous, j->v_viscous, v);
+  if (o->laminar == ORACLE_MORRIS) {
+    real factor = per_mass * (eta_i + eta_j) * ij->f;
+    for (int k = 0; k < 3; k++) force[k] = factor * v[k];
+    size = fabsl(factor) * speed;
+  } else {
+    real mean = eta_i + eta_j > 0 ? 2 * eta_i * eta_j / (eta_i + eta_j) : 0;
+    real factor = 2 * (o->dim + 2) * per_mass * mean / (ij->r * ij->r);
+    for (int k = 0; k < 3; k++) force[k] = factor * dot(v, ij->d) * ij->grad_w[k];
+    size = factor * speed * ij->r * ij->grad;
+  }
+  for (int k = 0; k < 3; k++) i->a[k] += force[k];
+  i->a_size += size * i->condition * j->condition;
+  i->heat -= dot(force, v) / 2;
+  i->heat_size += size * speed / 2 * i->condition * j->condition;
+}
+
+/* Cleary & Monaghan (1999):
+ *   du = sum m_j/(rho_i rho_j) 4 kappa_i kappa_j/(kappa_i + kappa_j) (T_i - T_j) F. */
+static void heat_conduction(const oracle *o, real k_i, real k_j, oracle_particle *i,
+                            const oracle_particle *j, const pair *ij)
+{
+  if (k_i <= 0 || k_j <= 0) return;
+  real factor = j->m / (i->rho * j->rho) * 4 * k_i * k_j / (k_i + k_j) * ij->f * regular(o, ij);
+  i->heat += factor * (i->T - j->T);
+  i->heat_size += fabsl(factor) * (i->T_size + j->T_size) * i->condition * j->condition;
+}
+
+/* Monaghan (1989):  dx/dt = v - epsilon sum m_j/rho v_ij W, rho the mean. */
+static void xsph(const oracle *o, oracle_particle *i, const oracle_particle *j, const pair *ij)
+{
+  real weight = o->epsilon * j->m / ((i->rho + j->rho) / 2) * oracle_w(o, ij->r);
+  real edge = 1 + 8 / (1 - ij->r / (kappa(o) * o->h));
+  for (int k = 0; k < 3; k++) i->dx[k] -= weight * (i->v[k] - j->v[k]);
+  i->dx_size += weight * edge * (norm(i->v) + norm(j->v)) * i->condition * j->condition;
 }
 
 /* Price (2008):  du = sum m_j/rho alpha_u v_sig (u_i - u_j) r F,  v_sig = sqrt(|p_i - p_j|/rho). */
@@ -328,19 +434,27 @@ static void conductivity(const oracle *o, oracle_particle *i, const oracle_parti
   real rho = (i->rho + j->rho) / 2, jump = fabsl(i->p - j->p);
   if (jump == 0) return;
   real factor = j->m / rho * o->conductivity * sqrtl(jump / rho) * ij->r * ij->f;
-  i->du += factor * (i->u - j->u);
-  i->du_size += fabsl(factor) * (i->u + j->u) * (1 + (i->p_size + j->p_size) / jump);
+  i->heat += factor * (i->u - j->u);
+  i->heat_size += fabsl(factor) * (i->u + j->u) * (1 + (i->p_size + j->p_size) / jump);
 }
 
 /* drho = delta h c0 sum V_j psi.grad W,
  * Molteni & Colagrossi (2009): psi = 2 (rho_j - rho_i) r_ji/r^2;
- * Antuono et al. (2010): less <grad rho>_i + <grad rho>_j; of a wall, that of i. */
+ * Antuono et al. (2010): less <grad rho>_i + <grad rho>_j; of a wall, that of i;
+ * Fourtakas et al. (2019): rho_j - rho_i - rho^H instead of rho_j - rho_i,
+ *   rho^H = rho0 ((1 + rho0 |g| z/B)^(1/gamma) - 1), z = z_i - z_j upwards, B = rho0 c0^2/gamma. */
 static void diffusion(const oracle *o, const oracle_eos *eos, int j_is_wall, oracle_particle *i,
                       const oracle_particle *j, const pair *ij)
 {
   real factor = o->delta * o->h * eos->c0 * j->m / j->rho, psi[3];
   real size = 2 * (i->rho + j->rho) / ij->r; /* of liquids: condition 1 */
-  for (int k = 0; k < 3; k++) psi[k] = -2 * (j->rho - i->rho) * ij->d[k] / (ij->r * ij->r);
+  real jump = j->rho - i->rho;
+  if (o->diffusion == ORACLE_FOURTAKAS) {
+    real weight = -eos->rho0 * dot(o->g, ij->d); /* rho0 |g| z */
+    jump -= eos->rho0 *
+            (powl(1 + weight * eos->gamma / (eos->rho0 * eos->c0 * eos->c0), 1 / eos->gamma) - 1);
+  }
+  for (int k = 0; k < 3; k++) psi[k] = -2 * jump * ij->d[k] / (ij->r * ij->r);
   if (o->diffusion == ORACLE_ANTUONO) {
     const oracle_particle *other = j_is_wall ? i : j;
     for (int k = 0; k < 3; k++) psi[k] -= i->gradient[k] + other->gradient[k];
@@ -349,27 +463,72 @@ static void diffusion(const oracle *o, const oracle_eos *eos, int j_is_wall, ora
   i->drho += factor * dot(psi, ij->grad_w), i->drho_size += factor * size * ij->grad;
 }
 
+/* What has an energy, and with it temperature, heat. */
+static int has_energy(const oracle *o, long i)
+{
+  return o->energy != ORACLE_DEFAULT || eos_of(o, i)->kind == ORACLE_IDEAL_GAS;
+}
+
+/* u: p work + heat;  u + v^2/2: and v.a;  A = p/rho^gamma: (gamma - 1) rho^(1-gamma) heat;
+ * T: (T dp/dT work + heat)/c_v, of an ideal gas T dp/dT = p.  A liquid is not heated by work. */
+static void energy_rate(const oracle *o, const oracle_eos *eos, oracle_particle *i)
+{
+  int gas = eos->kind == ORACLE_IDEAL_GAS;
+  i->du = i->heat + (gas ? i->p * i->work : 0);
+  i->du_size = i->heat_size + (gas ? i->p_size * i->work_size : 0);
+  if (o->energy == ORACLE_TOTAL) {
+    i->du += dot(i->v, i->a);
+    i->du_size += norm(i->v) * i->a_size;
+  } else if (o->energy == ORACLE_ENTROPY) {
+    real factor = (eos->gamma - 1) * powl(i->rho, 1 - eos->gamma);
+    i->du = factor * i->heat;
+    i->du_size = factor * i->heat_size * i->condition;
+  } else if (o->energy == ORACLE_TEMPERATURE) {
+    i->du /= eos->c_v;
+    i->du_size /= eos->c_v;
+  }
+}
+
+/* All terms of one pair; what walls take part in is said in docs/theory.md. */
+static void pair_rates(oracle *o, long i, long j, const pair *ij)
+{
+  oracle_particle *it = &o->particle[i];
+  const oracle_particle *other = &o->particle[j];
+  const oracle_group *own = &o->group[it->group], *theirs = &o->group[other->group];
+  int wall_j = theirs->wall, viscous = !wall_j || theirs->no_slip;
+  compression(o, it, other, ij);
+  if (viscous) viscosity(o, it, other, ij);
+  if (viscous && o->signal_alpha > 0) signal_viscosity(o, it, other, ij);
+  if (viscous && o->laminar != ORACLE_INVISCID)
+    laminar(o, own->viscosity, wall_j ? own->viscosity : theirs->viscosity, it, other, ij);
+  if (o->conductivity > 0 && !wall_j) conductivity(o, it, other, ij);
+  if (o->conduction && (!wall_j || theirs->temperature > 0)) {
+    real k_j = wall_j && theirs->conductivity <= 0 ? own->conductivity : theirs->conductivity;
+    heat_conduction(o, own->conductivity, k_j, it, other, ij);
+  }
+  if (o->epsilon > 0 && !wall_j) xsph(o, it, other, ij);
+  if (o->diffusion != ORACLE_OFF && same_fluid(o, i, j))
+    diffusion(o, eos_of(o, i), wall_j, it, other, ij);
+}
+
 static void rates(oracle *o, long i)
 {
   oracle_particle *it = &o->particle[i];
   pair ij;
-  it->drho = it->du = it->drho_size = it->du_size = 0;
+  it->drho = it->work = it->heat = it->du = 0;
+  it->drho_size = it->work_size = it->heat_size = it->du_size = 0;
+  for (int k = 0; k < 3; k++) it->dx[k] = it->v[k];
   for (int k = 0; k < 3; k++) it->a[k] = o->g[k] - o->omega * o->omega * it->x[k];
+  it->dx_size = norm(it->v);
   it->a_size = norm(o->g) + o->omega * o->omega * norm(it->x);
-  for (long j = 0; j < o->n; j++) {
-    const oracle_particle *other = &o->particle[j];
-    int wall_j = is_wall(o, j);
-    if (j == i || !near(o, i, j, &ij)) continue;
-    compression(o, it, other, &ij);
-    if (!wall_j || o->group[other->group].no_slip) viscosity(o, it, other, &ij);
-    if (o->conductivity > 0 && !wall_j) conductivity(o, it, other, &ij);
-    if (o->diffusion != ORACLE_OFF && same_fluid(o, i, j))
-      diffusion(o, eos_of(o, i), wall_j, it, other, &ij);
-  }
+  for (long j = 0; j < o->n; j++)
+    if (j != i && near(o, i, j, &ij)) pair_rates(o, i, j, &ij);
+  if (has_energy(o, i)) energy_rate(o, eos_of(o, i), it);
 }
 
 void oracle_evaluate(oracle *o)
 {
+  densities(o);
   materials(o);
   for (long i = 0; i < o->n; i++)
     if (is_wall(o, i)) wall(o, i);

@@ -14,6 +14,7 @@ enum oracle_eos_kind { ORACLE_TAIT, ORACLE_LINEAR, ORACLE_IDEAL_GAS };
 typedef struct oracle_eos {
   enum oracle_eos_kind kind;
   real rho0, c0, gamma, p_background; /* [kg/m^3], [m/s], 1, [Pa] */
+  real c_v;                           /* [J/(kg K)]; 0: no temperature */
 } oracle_eos;
 
 typedef struct oracle_group {
@@ -22,6 +23,9 @@ typedef struct oracle_group {
   int no_slip;          /* of a wall: viscous terms see it */
   int tension;          /* of a wall: p < 0 is allowed */
   real rho0;            /* of a wall, at rest [kg/m^3] */
+  real viscosity;       /* [Pa s] */
+  real conductivity;    /* [W/(m K)] */
+  real temperature;     /* of a wall's surface [K]; 0: adiabatic */
   real velocity[3];     /* of a wall [m/s] */
   real acceleration[3]; /* of a wall [m/s^2] */
 } oracle_group;
@@ -35,10 +39,14 @@ typedef struct oracle_particle {
   real p, c;         /* [Pa], [m/s] */
   real volume;       /* of a wall's place; 0 until it is known [m^dim] */
   real v_viscous[3]; /* what viscous terms see [m/s] */
+  real T;            /* what conduction sees [K] */
+  real phi;          /* of the row of that name */
   real gradient[3];  /* <grad rho>^L [kg/m^4] */
-  real a[3], drho, du;
-  real p_size, condition; /* condition: of rho */
-  real gradient_size, a_size, drho_size, du_size;
+  real dx[3], a[3], drho;
+  real du;                        /* rate of the energy that is integrated */
+  real work, heat;                /* by compression, by all else [W/kg] */
+  real p_size, condition, T_size; /* condition: of rho */
+  real gradient_size, dx_size, a_size, drho_size, du_size, work_size, heat_size;
 } oracle_particle;
 
 enum oracle_kernel {
@@ -53,8 +61,17 @@ enum oracle_kernel {
 };
 enum { ORACLE_KERNELS = ORACLE_SPIKY + 1 };
 enum { ORACLE_GROUPS = 4 };
-enum oracle_row { ORACLE_NONE, ORACLE_C1, ORACLE_C2 };            /* density and its partners */
-enum oracle_delta { ORACLE_OFF, ORACLE_MOLTENI, ORACLE_ANTUONO }; /* density diffusion */
+enum oracle_row { ORACLE_NONE, ORACLE_C1, ORACLE_C2, ORACLE_PHI }; /* density and its partners */
+enum oracle_delta { ORACLE_OFF, ORACLE_MOLTENI, ORACLE_ANTUONO, ORACLE_FOURTAKAS };
+enum oracle_laminar { ORACLE_INVISCID, ORACLE_MORRIS, ORACLE_MCG };
+/* What is integrated; of a liquid: carried along, heated, not compressed. */
+enum oracle_energy {
+  ORACLE_DEFAULT, /* u of a gas, nothing of a liquid */
+  ORACLE_U,
+  ORACLE_TOTAL,
+  ORACLE_ENTROPY,
+  ORACLE_TEMPERATURE
+};
 
 typedef struct oracle {
   int dim;
@@ -63,7 +80,14 @@ typedef struct oracle {
   int periodic[3];
   real length[3]; /* [m] */
   enum oracle_row continuity, pressure;
-  real alpha, beta;  /* artificial viscosity */
+  real exponent; /* of the row phi: phi = rho^exponent */
+  int summed;    /* density is a sum, not integrated: then continuity is ORACLE_C1 */
+  enum oracle_energy energy;
+  real alpha, beta; /* artificial viscosity */
+  real signal_alpha, signal_beta;
+  enum oracle_laminar laminar;
+  int conduction;
+  real epsilon;      /* XSPH */
   real conductivity; /* alpha_u */
   enum oracle_delta diffusion;
   real delta;

@@ -87,13 +87,13 @@ static void fill(scene *s, const scene_def *def, oracle_particle *it, unsigned l
   for (int k = 0; k < def->dim; k++) it->v[k] = between(state, -1, 1);
   it->m = (double)it->m * between(state, 0.5, 1.5);
   it->rho = rho0 * (def->thermal ? between(state, 0.5, 1.5) : between(state, 0.97, 1.06));
-  if (def->thermal) it->u = between(state, 5, 25);
+  if (def->thermal || def->laminar) it->u = between(state, 5, 25);
 }
 
 static void groups(scene *s, const scene_def *def)
 {
-  oracle_eos tait = {ORACLE_TAIT, 1000, 10, 7, 0}, linear = {ORACLE_LINEAR, 1000, 12, 1, 500};
-  oracle_eos gas = {ORACLE_IDEAL_GAS, 0, 0, 1.4, 0};
+  oracle_eos tait = {ORACLE_TAIT, 1000, 10, 7, 0, 0}, linear = {ORACLE_LINEAR, 1000, 12, 1, 500, 0};
+  oracle_eos gas = {ORACLE_IDEAL_GAS, 0, 0, 1.4, 0, 0};
 
   s->o.groups = ORACLE_GROUPS;
   for (int g = 0; g < ORACLE_GROUPS; g++) {
@@ -101,6 +101,12 @@ static void groups(scene *s, const scene_def *def)
     *group = (oracle_group){.wall = g >= 2, .no_slip = def->no_slip, .tension = def->tension};
     group->rho0 = rho0_of_all;
     group->eos = def->thermal ? gas : g == 1 ? linear : tait;
+    if (def->laminar) {
+      group->eos.c_v = g == 1 ? 0.7 : 0.5;
+      group->viscosity = g == 1 ? 3 : 2;
+      group->conductivity = g == 1 ? 40 : g == 3 ? 0 : 15;
+      group->temperature = g == 3 ? 22 : 0;
+    }
     for (int k = 0; k < def->dim && g == 3; k++) {
       group->velocity[k] = 0.25 * (k + 1);
       group->acceleration[k] = 1.5 - k;
@@ -161,8 +167,15 @@ static sph_eos library_eos(const oracle_eos *eos)
                    ? sph_eos_tait((double)eos->rho0, (double)eos->c0, (double)eos->gamma)
                    : sph_eos_linear((double)eos->rho0, (double)eos->c0, -INFINITY);
   if (eos->kind != ORACLE_IDEAL_GAS) it.p_background = (double)eos->p_background;
+  it.c_v = (double)eos->c_v;
   return it;
 }
+
+static const char *const energies[] = {"none", "u", "total", "entropy", "temperature"};
+static const char *const energy_fields[] = {"energy", "energy", "total_energy", "entropic_function",
+                                            "temperature"};
+
+static int has_energy(const scene *s) { return s->thermal || s->o.energy; }
 
 static long first_of(const oracle *o, int g)
 {
@@ -184,29 +197,50 @@ static void add_group(scene *s, sph_sim *sim, int g)
   sph_group *group = sph_group_create(sim, names[g], o->group[g].wall ? "wall" : "fluid");
   sph_group_add_points(group, n, (const double *const *)x, rho0_of_all);
   for (int k = 0; k < 3; k++) free(x[k]);
+  sph_group_set_viscosity(group, (double)o->group[g].viscosity);
+  sph_group_set_conductivity(group, (double)o->group[g].conductivity);
   if (!o->group[g].wall) {
     sph_group_set_eos(group, library_eos(&o->group[g].eos));
+    if (o->energy) sph_group_set_energy(group, energies[o->energy]);
     return;
   }
   sph_boundary boundary = o->group[g].no_slip ? sph_boundary_adami_no_slip() : sph_boundary_adami();
   boundary.tension = o->group[g].tension;
+  boundary.temperature = (double)o->group[g].temperature;
   boundary.motion = g == 3 ? move : NULL;
   boundary.ctx = &o->group[g];
   sph_group_set_boundary(group, boundary);
 }
 
+static void add_rows(const oracle *o, sph_sim *sim)
+{
+  static const char *const continuity[] = {NULL, "c1", "c2"}, *const pressure[] = {NULL, "s", "c2",
+                                                                                   "phi"};
+  if (o->summed)
+    sph_sim_add_term(sim, sph_term_summation(0));
+  else if (o->continuity == ORACLE_PHI)
+    sph_sim_add_term(sim, sph_term_continuity_phi((double)o->exponent));
+  else if (o->continuity)
+    sph_sim_add_term(sim, sph_term_continuity_form(continuity[o->continuity]));
+  if (o->pressure) sph_sim_add_term(sim, sph_term_pressure_form(pressure[o->pressure]));
+}
+
 static void add_terms(const oracle *o, sph_sim *sim)
 {
-  static const char *const continuity[] = {NULL, "c1", "c2"}, *const pressure[] = {NULL, "s", "c2"};
-  if (o->continuity) sph_sim_add_term(sim, sph_term_continuity_form(continuity[o->continuity]));
-  if (o->pressure) sph_sim_add_term(sim, sph_term_pressure_form(pressure[o->pressure]));
+  static const char *const delta[] = {NULL, "molteni", "antuono", "fourtakas"};
+  add_rows(o, sim);
   if (o->alpha > 0 || o->beta > 0)
     sph_sim_add_term(sim, sph_term_viscosity_artificial((double)o->alpha, (double)o->beta));
+  if (o->signal_alpha > 0)
+    sph_sim_add_term(sim,
+                     sph_term_viscosity_signal((double)o->signal_alpha, (double)o->signal_beta));
+  if (o->laminar)
+    sph_sim_add_term(sim, sph_term_viscosity_laminar(o->laminar == ORACLE_MCG ? "mcg" : "morris"));
   if (o->conductivity > 0)
     sph_sim_add_term(sim, sph_term_conductivity_artificial((double)o->conductivity));
-  if (o->diffusion)
-    sph_sim_add_term(sim, sph_term_delta(o->diffusion == ORACLE_MOLTENI ? "molteni" : "antuono",
-                                         (double)o->delta));
+  if (o->conduction) sph_sim_add_term(sim, sph_term_conduction());
+  if (o->epsilon > 0) sph_sim_add_term(sim, sph_term_xsph((double)o->epsilon));
+  if (o->diffusion) sph_sim_add_term(sim, sph_term_delta(delta[o->diffusion], (double)o->delta));
   double g[3] = {(double)o->g[0], (double)o->g[1], (double)o->g[2]};
   if (g[0] != 0 || g[1] != 0 || g[2] != 0) sph_sim_add_term(sim, sph_term_gravity(g));
   if (o->omega > 0) sph_sim_add_term(sim, sph_term_harmonic((double)o->omega));
@@ -227,7 +261,7 @@ void scene_write(const scene *s, sph_sim *sim)
       }
     }
     double *m = sph_group_write(group, "mass", 0), *rho = sph_group_write(group, "density", 0);
-    double *u = s->thermal ? sph_group_write(group, "energy", 0) : NULL;
+    double *u = has_energy(s) ? sph_group_write(group, "energy", 0) : NULL;
     for (long i = 0; m && rho && i < n; i++) {
       m[i] = (double)o->particle[first + i].m;
       rho[i] = (double)o->particle[first + i].rho;
@@ -271,7 +305,8 @@ scene_rates scene_evaluate(const scene *s, sph_sim *sim)
 {
   const oracle *o = &s->o;
   scene_rates r = {.n = o->n};
-  double **all[] = {&r.a[0], &r.a[1], &r.a[2], &r.drho, &r.du, &r.p, &r.c, &r.rho};
+  double **all[] = {&r.dx[0], &r.dx[1], &r.dx[2], &r.a[0], &r.a[1], &r.a[2],
+                    &r.drho,  &r.du,    &r.p,     &r.c,    &r.rho};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++)
     *all[k] = calloc((size_t)o->n, sizeof(double));
   int status = sph_sim_evaluate(sim);
@@ -284,24 +319,28 @@ scene_rates scene_evaluate(const scene *s, sph_sim *sim)
     copy(r.rho, first, n, sph_group_read(group, "density", 0));
     if (o->group[g].wall) continue;
     copy(r.c, first, n, sph_group_read(group, "sound_speed", 0));
-    copy(r.drho, first, n, sph_group_rate(group, "density", 0));
-    for (int k = 0; k < o->dim; k++) copy(r.a[k], first, n, sph_group_rate(group, "velocity", k));
-    if (s->thermal) copy(r.du, first, n, sph_group_rate(group, "energy", 0));
+    if (!o->summed) copy(r.drho, first, n, sph_group_rate(group, "density", 0));
+    for (int k = 0; k < o->dim; k++) {
+      copy(r.dx[k], first, n, sph_group_rate(group, "position", k));
+      copy(r.a[k], first, n, sph_group_rate(group, "velocity", k));
+    }
+    if (has_energy(s)) copy(r.du, first, n, sph_group_rate(group, energy_fields[o->energy], 0));
   }
   return r;
 }
 
 void scene_rates_free(scene_rates *r)
 {
-  double *all[] = {r->a[0], r->a[1], r->a[2], r->drho, r->du, r->p, r->c, r->rho};
+  double *all[] = {r->dx[0], r->dx[1], r->dx[2], r->a[0], r->a[1], r->a[2],
+                   r->drho,  r->du,    r->p,     r->c,    r->rho};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) free(all[k]);
 }
 
 int scene_rates_same(const scene_rates *a, const scene_rates *b)
 {
   size_t bytes = (size_t)a->n * sizeof(double);
-  return a->n == b->n && !memcmp(a->a[0], b->a[0], bytes) && !memcmp(a->a[1], b->a[1], bytes) &&
-         !memcmp(a->a[2], b->a[2], bytes) && !memcmp(a->drho, b->drho, bytes) &&
-         !memcmp(a->du, b->du, bytes) && !memcmp(a->p, b->p, bytes) &&
-         !memcmp(a->rho, b->rho, bytes);
+  return a->n == b->n && !memcmp(a->dx[0], b->dx[0], bytes) && !memcmp(a->a[0], b->a[0], bytes) &&
+         !memcmp(a->a[1], b->a[1], bytes) && !memcmp(a->a[2], b->a[2], bytes) &&
+         !memcmp(a->drho, b->drho, bytes) && !memcmp(a->du, b->du, bytes) &&
+         !memcmp(a->p, b->p, bytes) && !memcmp(a->rho, b->rho, bytes);
 }
