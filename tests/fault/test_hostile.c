@@ -580,20 +580,13 @@ static void null_simulation(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(create),
-      cmocka_unit_test(groups),
-      cmocka_unit_test(no_pointers),
-      cmocka_unit_test(materials),
-      cmocka_unit_test(properties),
-      cmocka_unit_test(terms),
-      cmocka_unit_test(integrators),
-      cmocka_unit_test(own_integrators),
-      cmocka_unit_test(unfinished),
-      cmocka_unit_test(outputs_and_times),
-      cmocka_unit_test(after_the_start),
-      cmocka_unit_test(wrong_kind),
-      cmocka_unit_test(bad_states),
-      cmocka_unit_test(callbacks),
+      cmocka_unit_test(create),          cmocka_unit_test(groups),
+      cmocka_unit_test(no_pointers),     cmocka_unit_test(materials),
+      cmocka_unit_test(properties),      cmocka_unit_test(terms),
+      cmocka_unit_test(integrators),     cmocka_unit_test(own_integrators),
+      cmocka_unit_test(unfinished),      cmocka_unit_test(outputs_and_times),
+      cmocka_unit_test(after_the_start), cmocka_unit_test(wrong_kind),
+      cmocka_unit_test(bad_states),      cmocka_unit_test(callbacks),
       cmocka_unit_test(null_simulation),
   };
   return cmocka_run_group_tests_name("hostile input", tests, NULL, NULL);
