@@ -290,6 +290,7 @@ static int make_integrator(sph_sim *sim)
 {
   sph_problem problem = {.ctx = sim,
                          .threads = sim->threads,
+                         .drift = (sim->loop_terms & SPH_XSPH) != 0,
                          .rhs = sph_sim_rhs,
                          .weights = sph_sim_weights,
                          .limits = limits,
