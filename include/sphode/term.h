@@ -32,18 +32,20 @@ typedef struct sph_particles {
 
 enum { SPH_TILE_READS = 8, SPH_SCALARS_MAX = 8 };
 
-/* Some pairs of one particle group (i) with sources of another or the same (j): what a pair term
- * reads and adds to.  Every array is [n], one entry a pair; loop over k = 0 .. n - 1.  Some pairs
- * lie outside the support: F and W are zero there, and what is added must be too, as it is if it
- * is proportional to F or W.  A particle also meets itself, with r = v = 0. */
+/* Some pairs of particles of one group (i) with particles of another or the same (j): what a pair
+ * term reads and adds to.  Every array is [n], one entry a pair; loop over k = 0 .. n - 1.  Some
+ * pairs lie outside the support: F is zero there, and what is added must be too, as it is if it is
+ * proportional to F.  A particle also meets itself, with r = v = 0. */
 typedef struct sph_tile {
   int dim;
-  int wall; /* the sources are a wall: v is what viscous terms see, scalars mirror those of i */
+  int wall; /* the sources are a wall: scalars mirror those of i */
   long n;
-  double t, h;                     /* time [s], smoothing length [m] */
-  const char *target, *source;     /* names of the groups of i, of j */
-  const double *r[3], *v[3];       /* x_i - x_j [m], v_i - v_j [m/s]; NULL for d >= dim */
-  const double *r2, *rv;           /* r.r [m^2], r.v [m^2/s] */
+  double t, h;                 /* time [s], smoothing length [m] */
+  const char *target, *source; /* names of the groups of i, of j */
+  const double *r[3], *v[3];   /* x_i - x_j [m], v_i - v_j [m/s]; NULL for d >= dim */
+  const double *r2, *rv;       /* r.r [m^2], r.v [m^2/s] */
+  /* The same as viscous terms see them: other ones at no-slip walls. */
+  const double *v_viscous[3], *rv_viscous;
   const double *F;                 /* F = (dW/dr)/r <= 0: grad_i W = F r [m^-(d+2)] */
   const double *V;                 /* volume of j [m^d] */
   const double *m;                 /* mass of j [kg/m^(3-d)] */
@@ -53,9 +55,9 @@ typedef struct sph_tile {
   /* Add: */
   double *push;    /* [1/s^2] acceleration push * r of i: a conservative force, heats nothing */
   double *along_r; /* [1/s^2] acceleration along_r * r: dissipative, half of its work heats i */
-  double *along_v; /* [1/s] acceleration along_v * v: likewise */
-  double *drho;    /* [kg/m^3/s] of i */
-  double *du;      /* [W/kg] heating of i */
+  double *along_v; /* [1/s] acceleration along_v * v_viscous: likewise */
+  double *drho;    /* [kg/m^3/s] of i; lost where density is a sum */
+  double *du;      /* [W/kg] heating of i; lost where it has no energy */
   double *ds;      /* [unit/s] of the term's own scalar of i; NULL without one */
 } sph_tile;
 

@@ -49,6 +49,7 @@ typedef struct tile_constants {
 /* The arrays of one tile, a row a source: on the stack of a thread, about 20 KiB of it in use. */
 typedef struct tile_rows {
   vec r[3][SPH_TILE_ROWS], v[3][SPH_TILE_ROWS], r2[SPH_TILE_ROWS], rv[SPH_TILE_ROWS];
+  vec v_viscous[3][SPH_TILE_ROWS], rv_viscous[SPH_TILE_ROWS]; /* at no-slip walls only */
   vec F[SPH_TILE_ROWS], V[SPH_TILE_ROWS], m[SPH_TILE_ROWS];
   vec push[SPH_TILE_ROWS], along_r[SPH_TILE_ROWS], along_v[SPH_TILE_ROWS];
   vec drho[SPH_TILE_ROWS], du[SPH_TILE_ROWS], ds[SPH_SCALARS_MAX][SPH_TILE_ROWS];
@@ -87,12 +88,17 @@ BODY void tile_fill(int dim, int kernel, const tile_constants *k, const vec *slo
   fluid_pair_forces(dim, terms, &p, sum);
   for (int d = 0; d < dim; d++) {
     rows->r[d][n] = p.r[d];
-    rows->v[d][n] = terms & SPH_NO_SLIP ? i.v[d] - j.extra[d] : i.v[d] - j.v[d];
+    rows->v[d][n] = i.v[d] - j.v[d];
   }
-  vec v[3];
-  for (int d = 0; d < dim; d++) v[d] = rows->v[d][n];
   rows->r2[n] = p.r2;
-  rows->rv[n] = fluid_dot(dim, p.r, v);
+  rows->rv[n] = p.rv;
+  if (terms & SPH_NO_SLIP) {
+    rows->rv_viscous[n] = v_set(0);
+    for (int d = 0; d < dim; d++) {
+      rows->v_viscous[d][n] = i.v[d] - j.extra[d];
+      rows->rv_viscous[n] += p.r[d] * rows->v_viscous[d][n];
+    }
+  }
   rows->F[n] = k->F_scale * p.F;
   rows->V[n] = j.V;
   rows->m[n] = j.V * j.rho;
@@ -126,9 +132,12 @@ static __attribute__((noinline, unused)) void tile_call(int dim, const tile_cons
                    .along_v = (double *)rows->along_v,
                    .drho = (double *)rows->drho,
                    .du = (double *)rows->du};
+  const int no_slip = (k->fluid.terms & SPH_NO_SLIP) != 0;
+  tile.rv_viscous = no_slip ? (const double *)rows->rv_viscous : tile.rv;
   for (int d = 0; d < dim; d++) {
     tile.r[d] = (const double *)rows->r[d];
     tile.v[d] = (const double *)rows->v[d];
+    tile.v_viscous[d] = no_slip ? (const double *)rows->v_viscous[d] : tile.v[d];
   }
   for (int q = 0; q < k->terms; q++) {
     const sph_tile_term *one = &k->term[q];
@@ -148,14 +157,17 @@ static __attribute__((noinline, unused)) void tile_call(int dim, const tile_cons
 BODY void tile_take(int dim, const tile_constants *k, const tile_rows *rows, int n, vec *sum)
 {
   const vec unit = v_set(1 / k->F_scale);
+  const int no_slip = (k->fluid.terms & SPH_NO_SLIP) != 0;
+  const vec(*v)[SPH_TILE_ROWS] = no_slip ? rows->v_viscous : rows->v;
+  const vec *rv = no_slip ? rows->rv_viscous : rows->rv;
   for (int q = 0; q < n; q++) {
-    vec force = unit * (rows->push[q] + rows->along_r[q]), v2 = v_set(0);
-    vec drag = unit * rows->along_v[q];
+    vec force = unit * (rows->push[q] + rows->along_r[q]), drag = unit * rows->along_v[q];
+    vec v2 = v_set(0);
     for (int d = 0; d < dim; d++) {
-      sum[SPH_SUM_A + d] += force * rows->r[d][q] + drag * rows->v[d][q];
-      v2 += rows->v[d][q] * rows->v[d][q];
+      sum[SPH_SUM_A + d] += force * rows->r[d][q] + drag * v[d][q];
+      v2 += v[d][q] * v[d][q];
     }
-    vec work = unit * rows->along_r[q] * rows->rv[q] + drag * v2;
+    vec work = unit * rows->along_r[q] * rv[q] + drag * v2;
     sum[SPH_SUM_HEAT] += unit * rows->du[q] - 0.5 * work;
     sum[SPH_SUM_DENSITY] += unit * rows->drho[q];
     for (int s = 0; s < k->scalars; s++) sum[SPH_SUM_SCALAR + s] += unit * rows->ds[s][q];
