@@ -1,5 +1,5 @@
-/* 01_kernel -- the smoothing kernels: a table of W and dW/dr, what tells them apart, and the integral
- * that must be 1.
+/* 01_kernel -- the smoothing kernels: a table of W and dW/dr, what tells them apart, and the
+ * integral that must be 1.
  *
  * Equations  W = (sigma_d/h^d) w(r/h), W = 0 for r >= kappa h;  the integral of W over space is 1:
  *            int_0^(kappa h) W A_d dr = 1,  A_1 = 2, A_2 = 2 pi r, A_3 = 4 pi r^2

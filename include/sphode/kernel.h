@@ -24,7 +24,7 @@ SPH_API double sph_kernel_support(const sph_kernel *kernel);        /* kappa = s
 SPH_API double sph_kernel_sigma(const sph_kernel *kernel, int dim); /* sigma_d */
 SPH_API double sph_kernel_h_over_dx(const sph_kernel *kernel);      /* recommended h/dx */
 
-/* Facts for choosing; docs/theory.md, Kernels.  dim = 1, 2, 3; NaN for a bad kernel, dim or h/dx. */
+/* Facts for choosing; docs/theory.md, Kernels.  NaN for a bad kernel, dim (1, 2, 3) or h/dx. */
 
 /* sigma_k = sqrt((1/d) int q^2 W dV) [h]: kernels of equal sigma_k h resolve alike. */
 SPH_API double sph_kernel_deviation(const sph_kernel *kernel, int dim);
