@@ -174,8 +174,8 @@ static void one_period(void **state)
 
 /* A running wave of relative amplitude 1e-6 after one period, against the linear solution: rms of
  * velocity over e c0.  A cubic spline of integer h/dx reproduces straight lines on a lattice: its
- * error is its dispersion, of second order in dx.  (That of a gas almost vanishes at h = dx, and what
- * is left, 6e-6, is no linear sound.) */
+ * error is its dispersion, of second order in dx.  (That of a gas almost vanishes at h = dx, and
+ * what is left, 6e-6, is no linear sound.) */
 static double running_wave(int n, int thermal)
 {
   const double e = 1e-6, gamma = 1.4, p0 = thermal ? rho0 * c0 * c0 / gamma : 0;
