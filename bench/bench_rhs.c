@@ -9,12 +9,18 @@
 enum { REPEATS = 9 };
 
 typedef struct setup {
-  const char *name;
+  const char *name, *kernel;
   int dim;
   long across; /* particles along a side */
   int thermal;
   const char *delta; /* NULL: none */
 } setup;
+
+/* Every kernel sees the same pairs: those within 3 dx. */
+static double h_over_dx(const char *kernel)
+{
+  return 3 / sph_kernel_support(sph_kernel_find(kernel));
+}
 
 static double noise(unsigned *state)
 {
@@ -27,8 +33,11 @@ static double noise(unsigned *state)
 static sph_sim *make(const setup *s, double skin)
 {
   double dx = 1.0 / (double)s->across, c0 = 10;
-  sph_sim_def def = {
-      .dim = s->dim, .dx = dx, .kernel = "wendland-c2", .h_over_dx = 1.5, .skin = skin};
+  sph_sim_def def = {.dim = s->dim,
+                     .dx = dx,
+                     .kernel = s->kernel,
+                     .h_over_dx = h_over_dx(s->kernel),
+                     .skin = skin};
   double lo[3] = {0, 0, 0}, hi[3] = {1, 1, 1};
   for (int d = 0; d < s->dim; d++) {
     def.periodic[d] = 1;
@@ -57,7 +66,19 @@ static sph_sim *make(const setup *s, double skin)
   return sim;
 }
 
-/* Million pairs a second of full right-hand sides; rebuild: move all particles by far more than the
+/* Million pairs a second of one right-hand side. */
+static double rate_of(sph_sim *sim)
+{
+  sph_sim_stats before, after;
+  sph_sim_get_stats(sim, &before);
+  double begin = bench_thread_seconds();
+  if (sph_sim_evaluate(sim)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  double seconds = bench_thread_seconds() - begin;
+  sph_sim_get_stats(sim, &after);
+  return (after.pairs - before.pairs) / seconds / 1e6;
+}
+
+/* Full right-hand sides; rebuild: move all particles by far more than the
  * skin before each. */
 static void measure(const setup *s, int rebuild)
 {
@@ -66,33 +87,56 @@ static void measure(const setup *s, int rebuild)
   if (!bench_wanted(name)) return;
   sph_sim *sim = make(s, -1); /* no skin: every pair of the lists can count */
   double rate[REPEATS];
-  sph_sim_stats before, after;
   for (int k = -2; k < REPEATS; k++) {
     double *x = sph_group_write(sph_sim_group(sim, "fluid"), "position", 0);
     for (long i = 0; rebuild && x && i < sph_group_count(sph_sim_group(sim, "fluid")); i++)
       x[i] += 1e-3;
-    sph_sim_get_stats(sim, &before);
-    double begin = bench_thread_seconds();
-    if (sph_sim_evaluate(sim)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
-    double seconds = bench_thread_seconds() - begin;
-    sph_sim_get_stats(sim, &after);
-    if (k >= 0) rate[k] = (after.pairs - before.pairs) / seconds / 1e6;
+    double now = rate_of(sim);
+    if (k >= 0) rate[k] = now;
   }
   bench_report(name, "Mpairs/s", rate, REPEATS);
   sph_sim_free(sim);
 }
 
+/* A kernel, and its rate over that of Wendland C2, by turns. */
+static void measure_kernel(const setup *s)
+{
+  char name[60], ratio_name[80];
+  snprintf(name, sizeof name, "rhs/%dd/%s", s->dim, s->kernel);
+  snprintf(ratio_name, sizeof ratio_name, "%s/over-wendland-c2", name);
+  if (!bench_wanted(ratio_name)) return;
+  setup usual = *s;
+  usual.kernel = "wendland-c2";
+  sph_sim *sim = make(s, -1), *other = make(&usual, -1);
+  double rate[REPEATS], ratio[REPEATS];
+  for (int k = -2; k < REPEATS; k++) {
+    double a = rate_of(sim), b = rate_of(other);
+    if (k >= 0) rate[k] = a, ratio[k] = a / b;
+  }
+  bench_report(name, "Mpairs/s", rate, REPEATS);
+  bench_report(ratio_name, "1", ratio, REPEATS);
+  sph_sim_free(sim);
+  sph_sim_free(other);
+}
+
 void bench_rhs(void)
 {
   long a3 = bench_quick() ? 20 : 46, a2 = bench_quick() ? 100 : 316;
-  const setup setups[] = {{"molteni", 3, a3, 0, "molteni"},
-                          {"molteni-thermal", 3, a3, 1, "molteni"},
-                          {"antuono", 3, a3, 0, "antuono"},
-                          {"any", 3, a3, 0, NULL},
-                          {"molteni", 2, a2, 0, "molteni"},
-                          {"antuono", 2, a2, 0, "antuono"},
-                          {"molteni", 1, 10000, 0, "molteni"}};
+  const char *usual = "wendland-c2";
+  const setup setups[] = {{"molteni", usual, 3, a3, 0, "molteni"},
+                          {"molteni-thermal", usual, 3, a3, 1, "molteni"},
+                          {"antuono", usual, 3, a3, 0, "antuono"},
+                          {"any", usual, 3, a3, 0, NULL},
+                          {"molteni", usual, 2, a2, 0, "molteni"},
+                          {"antuono", usual, 2, a2, 0, "antuono"},
+                          {"molteni", usual, 1, 10000, 0, "molteni"}};
   for (unsigned k = 0; k < sizeof setups / sizeof *setups; k++) measure(&setups[k], 0);
   measure(&setups[0], 1);
   measure(&setups[4], 1);
+  const sph_kernel *kernel;
+  for (int dim = 3; dim >= 1; dim--)
+    for (int k = 1; (kernel = sph_kernel_get(k)); k++) {
+      long across = dim == 3 ? a3 : dim == 2 ? a2 : 10000;
+      measure_kernel(&(setup){"", sph_kernel_name(kernel), dim, across, 0, "molteni"});
+    }
 }

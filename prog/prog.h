@@ -25,6 +25,10 @@ int sph_prog_check(const prog_options *o);
 int sph_prog_info(const prog_options *o);
 int sph_prog_plot(const prog_options *o);
 
+/* sphode info kernels: for people; --csv --q, which returns the exit status. */
+void sph_prog_kernels_table(void);
+int sph_prog_kernels_values(const prog_options *o);
+
 /* "sphode: ..." on stderr; returns status. */
 int sph_prog_error(int status, const char *format, ...) SPH_PRINTF(2, 3);
 

@@ -6,7 +6,7 @@
 
 #include "prog.h"
 
-enum { DETAILS = 6 };
+enum { DETAILS = 12 };
 
 /* One row of a list: names and texts of its columns. */
 typedef struct row {
@@ -28,9 +28,20 @@ static int kernel_row(int k, row *r)
   if (!kernel) return 0;
   r->name = sph_kernel_name(kernel);
   r->formula = sph_kernel_formula(kernel, 2);
+  double h_over_dx = sph_kernel_h_over_dx(kernel);
   snprintf(r->detail[0], sizeof r->detail[0], "%s", sph_kernel_smoothness(kernel));
-  snprintf(r->detail[1], sizeof r->detail[1], "%g", sph_kernel_support(kernel));
-  snprintf(r->detail[2], sizeof r->detail[2], "%g", sph_kernel_h_over_dx(kernel));
+  const double number[] = {sph_kernel_support(kernel),
+                           h_over_dx,
+                           sph_kernel_neighbors(kernel, 2, h_over_dx),
+                           sph_kernel_neighbors(kernel, 3, h_over_dx),
+                           sph_kernel_lattice_error(kernel, 2, h_over_dx),
+                           sph_kernel_lattice_error(kernel, 3, h_over_dx),
+                           sph_kernel_deviation(kernel, 2),
+                           sph_kernel_deviation(kernel, 3),
+                           sph_kernel_least_transform(kernel, 2),
+                           sph_kernel_least_transform(kernel, 3),
+                           sph_kernel_rate(kernel)};
+  for (int d = 0; d < 11; d++) snprintf(r->detail[d + 1], sizeof *r->detail, "%.9g", number[d]);
   return 1;
 }
 
@@ -106,7 +117,13 @@ static int integrator_row(int k, row *r)
 }
 
 static const list lists[] = {
-    {"kernels", {"smoothness", "support/h", "h/dx"}, "tnn", kernel_row, "formula"},
+    {"kernels",
+     {"smoothness", "support/h", "h/dx", "neighbors-2d", "neighbors-3d", "lattice-error-2d",
+      "lattice-error-3d", "sigma-k-2d", "sigma-k-3d", "least-transform-2d", "least-transform-3d",
+      "rate"},
+     "tnnnnnnnnnnn",
+     kernel_row,
+     "formula"},
     {"eos", {NULL}, "", eos_row, "formula"},
     {"materials",
      {"eos", "density", "c0", "c_v", "viscosity", "conductivity"},
@@ -191,32 +208,6 @@ static void print_list(const list *l)
   }
 }
 
-static int print_kernel_values(const prog_options *o)
-{
-  if (!o->q) return sph_prog_error(PROG_USAGE, "--csv wants --q, as in --q 0,0.25,1.3");
-  for (const char *at = o->q; *at;) { /* all right before anything is printed */
-    char *end;
-    double q = strtod(at, &end);
-    if (end == at || !(q >= 0) || isinf(q) || (*end && (*end != ',' || !end[1])))
-      return sph_prog_error(PROG_USAGE, "--q %s: found '%s'; wanted numbers >= 0 with commas", o->q,
-                            at);
-    at = *end ? end + 1 : end;
-  }
-  puts("kernel,dim,q,W,dWdr,laplacian");
-  const sph_kernel *kernel;
-  for (int k = 0; (kernel = sph_kernel_get(k)); k++)
-    for (int dim = 1; dim <= 3; dim++)
-      for (const char *at = o->q; *at; at += *at == ',') {
-        char *end;
-        double q = strtod(at, &end);
-        printf("%s,%d,%.17g,%.17g,%.17g,%.17g\n", sph_kernel_name(kernel), dim, q,
-               sph_kernel_w(kernel, dim, q, 1), sph_kernel_dwdr(kernel, dim, q, 1) + 0.0,
-               sph_kernel_laplacian(kernel, dim, q, 1) + 0.0); /* no -0 */
-        at = end;
-      }
-  return PROG_OK;
-}
-
 static int print_manual(void)
 {
   int n = sph_case_manual(NULL, 0);
@@ -234,7 +225,8 @@ int sph_prog_info(const prog_options *o)
   int kernels = !strcmp(o->what, "kernels");
   if ((o->csv || o->q) && !kernels)
     return sph_prog_error(PROG_USAGE, "--csv and --q belong to info kernels");
-  if (o->csv || o->q) return print_kernel_values(o);
+  if (o->csv || o->q) return sph_prog_kernels_values(o);
+  if (kernels && !o->json) return sph_prog_kernels_table(), PROG_OK;
   for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) {
     if (strcmp(lists[k].name, o->what)) continue;
     (o->json ? print_json : print_list)(&lists[k]);

@@ -24,6 +24,20 @@ SPH_API double sph_kernel_support(const sph_kernel *kernel);        /* kappa = s
 SPH_API double sph_kernel_sigma(const sph_kernel *kernel, int dim); /* sigma_d */
 SPH_API double sph_kernel_h_over_dx(const sph_kernel *kernel);      /* recommended h/dx */
 
+/* Facts for choosing; docs/theory.md, Kernels.  NaN for a bad kernel, dim (1, 2, 3) or h/dx. */
+
+/* sigma_k = sqrt((1/d) int q^2 W dV) [h]: kernels of equal sigma_k h resolve alike. */
+SPH_API double sph_kernel_deviation(const sph_kernel *kernel, int dim);
+/* Least value of the Fourier transform over that at wave number 0: 0 where it is nowhere negative,
+ * and particles do not pair, whatever their number of neighbours (Dehnen & Aly 2012). */
+SPH_API double sph_kernel_least_transform(const sph_kernel *kernel, int dim);
+/* Pairs per second over those of "wendland-c2", right-hand side in 3D, measured once. */
+SPH_API double sph_kernel_rate(const sph_kernel *kernel);
+/* On a cubic lattice of spacing dx, 0 < h/dx <= 20: points inside the support without the particle
+ * itself; sum_j V W_ij - 1 with it.  Computed on each call, in 3D with (2 kappa h/dx)^3 W. */
+SPH_API double sph_kernel_neighbors(const sph_kernel *kernel, int dim, double h_over_dx);
+SPH_API double sph_kernel_lattice_error(const sph_kernel *kernel, int dim, double h_over_dx);
+
 /* All with dim = 1, 2, 3, r >= 0 [m], h > 0 [m]; NaN for a bad dim or h <= 0.  At r = 0 those of
  * "spiky" are limits: dW/dr is not zero, F and in 2D, 3D the Laplacian are -infinity. */
 SPH_API double sph_kernel_w(const sph_kernel *kernel, int dim, double r, double h); /* W [m^-d] */

@@ -158,9 +158,9 @@ BODY vec kernel_quintic_spline_laplacian(int dim, vec q)
          (dim - 1) * kernel_quintic_spline_f(dim, q);
 }
 
-/* exp(-q^2), 0 <= q <= 3, within 1e-14 of itself: (exp(-q^2/16))^16, the inner one by the polynomial
+/* exp(-q^2), 0 <= q <= 3, within 1e-14 of itself: (exp(-q^2/16))^16, the inner one by a polynomial
  * of degree 10 in x = q^2 that meets it at eleven Chebyshev nodes of [0, 9], stretched so that the
- * first is 0: the polynomial is within 3.4e-17, and 1 at 0; four squarings make 16 times that, and
+ * first is 0: it is within 3.4e-17, and 1 at 0; four squarings make that 16 times as much, and
  * rounding adds. */
 BODY vec kernel_exp(vec q)
 {
@@ -201,7 +201,7 @@ BODY vec kernel_gaussian_shifted_laplacian(int dim, vec q)
 }
 
 /* Spiky (Desbrun & Gascuel 1996), s = (2 - q)+, kappa = 2: w = s^3,  f = -3 s^2/q,  w'' = 6 s.
- * grad W = r F has a size at r = 0 but no direction: there it is the zero vector, F being finite. */
+ * grad W = r F has a size at r = 0 but no direction: there it is 0, F being finite. */
 BODY vec kernel_spiky_w(int dim, vec q)
 {
   (void)dim;

@@ -17,13 +17,16 @@ struct sph_kernel {
   double slope_at_0;      /* limit of w' at q -> 0 */
   double sigma[3];        /* [dim - 1] */
   double variance[3];     /* sigma_k^2 [dim - 1] */
+  double least[3];        /* value of the Fourier transform [dim - 1] */
+  double rate;            /* over that of Wendland C2 */
   const char *formula[3]; /* [dim - 1] */
 };
 
 static const sph_kernel table[] = {
-#define X(number, name, support, smoothness, h_over_dx, slope, s1, s2, s3, v1, v2, v3, f1, f2, f3) \
-  [number] = {number, name,         support,      smoothness,  h_over_dx,                          \
-              slope,  {s1, s2, s3}, {v1, v2, v3}, {f1, f2, f3}},
+#define X(number, name, support, smoothness, h_over_dx, slope, s1, s2, s3, v1, v2, v3, l1, l2, l3, \
+          rate, f1, f2, f3)                                                                        \
+  [number] = {number,       name,         support,      smoothness, h_over_dx,   slope,            \
+              {s1, s2, s3}, {v1, v2, v3}, {l1, l2, l3}, rate,       {f1, f2, f3}},
 #include "kernels.def"
 #undef X
 };
@@ -56,6 +59,15 @@ double sph_kernel_sigma(const sph_kernel *kernel, int dim)
   return usable(kernel, dim) ? kernel->sigma[dim - 1] : NAN;
 }
 double sph_kernel_h_over_dx(const sph_kernel *kernel) { return kernel ? kernel->h_over_dx : NAN; }
+double sph_kernel_rate(const sph_kernel *kernel) { return kernel ? kernel->rate : NAN; }
+double sph_kernel_deviation(const sph_kernel *kernel, int dim)
+{
+  return usable(kernel, dim) ? sqrt(kernel->variance[dim - 1]) : NAN;
+}
+double sph_kernel_least_transform(const sph_kernel *kernel, int dim)
+{
+  return usable(kernel, dim) ? kernel->least[dim - 1] : NAN;
+}
 
 /* sigma_d/h^(d + more); NaN for what is not usable. */
 static double scale(const sph_kernel *kernel, int dim, double h, int more)
@@ -120,4 +132,35 @@ double sph_kernel_dwdh(const sph_kernel *kernel, int dim, double r, double h)
   double q = r / h;
   double shape = dim * shape_w(kernel, dim, q) + q * shape_slope(kernel, dim, q);
   return -scale(kernel, dim, h, 1) * shape;
+}
+
+/* Sums over the points of the cubic lattice of spacing 1 around a particle, h = h_over_dx. */
+typedef struct lattice {
+  double neighbors, sum_w;
+} lattice;
+
+static lattice lattice_sums(const sph_kernel *kernel, int dim, double h_over_dx)
+{
+  if (!usable(kernel, dim) || !(h_over_dx > 0 && h_over_dx <= 20)) return (lattice){NAN, NAN};
+  lattice sums = {0, 0};
+  const double reach = kernel->support * h_over_dx;
+  const long n = (long)reach, ny = dim > 1 ? n : 0, nz = dim > 2 ? n : 0;
+  for (long z = -nz; z <= nz; z++)
+    for (long y = -ny; y <= ny; y++)
+      for (long x = -n; x <= n; x++) {
+        double r = sqrt((double)(x * x + y * y + z * z));
+        sums.neighbors += r > 0 && r < reach;
+        sums.sum_w += sph_kernel_w(kernel, dim, r, h_over_dx);
+      }
+  return sums;
+}
+
+double sph_kernel_neighbors(const sph_kernel *kernel, int dim, double h_over_dx)
+{
+  return lattice_sums(kernel, dim, h_over_dx).neighbors;
+}
+
+double sph_kernel_lattice_error(const sph_kernel *kernel, int dim, double h_over_dx)
+{
+  return lattice_sums(kernel, dim, h_over_dx).sum_w - 1;
 }
