@@ -36,6 +36,14 @@ static void set_kernel(sph_sim *sim, const sph_sim_def *def)
     sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "kernel \"%s\"; known: %s", name, known);
 }
 
+/* Stability limits S are measured with Wendland C2.  The fastest waves of a lattice go as 1/sigma_k,
+ * the deviation of the kernel: a narrower one needs a smaller step. */
+static double narrow(const sph_kernel *kernel, int dim)
+{
+  return sph_kernel_deviation(kernel, dim) /
+         sph_kernel_deviation(sph_kernel_find("wendland-c2"), dim);
+}
+
 static void set_lengths(sph_sim *sim, const sph_sim_def *def)
 {
   if (positive(&sim->error, "dx", def->dx) || !sim->kernel) return;
@@ -45,6 +53,7 @@ static void set_lengths(sph_sim *sim, const sph_sim_def *def)
   sim->volume = sim->wall_volume = pow(def->dx, sim->dim);
   sim->h = h_over_dx * def->dx;
   sim->H = sph_kernel_support(sim->kernel) * sim->h;
+  sim->h_sound = sim->h * fmin(1, narrow(sim->kernel, sim->dim));
   if (!isfinite(def->skin)) {
     sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "skin = %g is not finite", def->skin);
     return;

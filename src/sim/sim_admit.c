@@ -78,7 +78,7 @@ static extremes look(const sph_sim *sim, const sph_view *view)
     volume_max = 1 / view->rho[i] > volume_max ? 1 / view->rho[i] : volume_max;
     bad += !(a2 + v2 + others(sim, view, i) < INFINITY);
   }
-  return (extremes){v2_max, a2_max, sim->h / speed_max, 1 / volume_max, bad};
+  return (extremes){v2_max, a2_max, sim->h_sound / speed_max, 1 / volume_max, bad};
 }
 
 /* A gas may meet itself head on: its approach speed is up to 2 max |v|. */
@@ -86,7 +86,7 @@ static double slowest(const sph_sim *sim, const sph_group *group, const extremes
 {
   if (!group->eos.thermal) return x->slowest;
   double beta = fmax(sim->terms.beta, sim->terms.signal_beta / 2);
-  return sim->h / (sim->h / x->slowest + (1 + 1.2 * beta) * sqrt(x->v2));
+  return sim->h_sound / (sim->h_sound / x->slowest + (1 + 1.2 * beta) * sqrt(x->v2));
 }
 
 /* 0.125 h^2/nu (Morris, Fox & Zhu 1997); the central form is up to three times as stiff, for

@@ -39,6 +39,7 @@ struct sph_sim {
   const sph_kernel *kernel;
   char neighbors_method[SPH_METHOD_MAX];
   double dx, h, H, skin, speed, origin[3], length[3]; /* H: support radius; skin [m] */
+  double h_sound;             /* of the acoustic step limit, at most h [m] */
   double volume, wall_volume; /* of a particle: dx^dim, unless calibrated [m^dim] */
 
   /* Attached. */
