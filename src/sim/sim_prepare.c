@@ -170,7 +170,7 @@ static int make_terms(sph_sim *sim)
   sim->F_scale = sim->W_scale / (sim->h * sim->h);
   sim->needs_temperature = (bits & SPH_CONDUCTION) != 0;
   int status = sph_sim_interaction_prepare(sim);
-  sim->fluid_sums = bits & SPH_XSPH ? SPH_FLUID_SUMS_ALL : SPH_FLUID_SUMS;
+  sim->fluid_sums = bits & SPH_RARE ? SPH_FLUID_SUMS_ALL : SPH_FLUID_SUMS;
   if (sim->tile_terms) sim->fluid_sums = SPH_SUM_SCALAR + terms->scalars;
   return status;
 }

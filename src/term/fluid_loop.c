@@ -12,12 +12,12 @@ static const sph_fluid_table *const tables[SPH_ISA_COUNT] = {
 static int set_of(unsigned terms)
 {
   const fluid_constants constants = {.terms = terms},
-                        *k = &constants; /* "any" matches itself, last */
+                        *k = &constants; /* "all" matches itself, last */
 #define MATCH(kernel, dim, name, mask, slots, sums) \
   if (terms == (mask)) return SPH_FLUID_SET_##name;
   SPH_FLUID_SETS(MATCH, , )
 #undef MATCH
-  return SPH_FLUID_SET_any;
+  return SPH_FLUID_SET_all;
 }
 
 sph_pair_function *sph_fluid_loop(int isa, int kernel, int dim, unsigned terms)

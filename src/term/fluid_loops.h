@@ -7,8 +7,8 @@
 
 #define SPH_WATER (SPH_CONTINUITY | SPH_PRESSURE_FORCE | SPH_FORM_C2)
 
-/* Constant sets of terms with a loop of their own, looked up by exact mask; "any" reads it at run
- * time, and so does "xsph", which has more sums.
+/* Constant sets of terms with a loop of their own, looked up by exact mask; "any" and "all" read it
+ * at run time, "any" all but the rare terms, which would cost the others a sixth of their rate.
  * X(kernel, dim, name, mask, slots, sums) */
 #define SPH_FLUID_SETS(X, kernel, dim)                                                           \
   X(kernel, dim, molteni, SPH_WATER | SPH_ARTIFICIAL | SPH_MOLTENI, 2 * dim + 4, SPH_FLUID_SUMS) \
@@ -16,8 +16,8 @@
     3 * dim + 6, SPH_FLUID_SUMS)                                                                 \
   X(kernel, dim, antuono, SPH_WATER | SPH_ARTIFICIAL | SPH_ANTUONO, 3 * dim + 4, SPH_FLUID_SUMS) \
   X(kernel, dim, antuono_wall, SPH_WATER | SPH_ANTUONO | SPH_WALL, 3 * dim + 4, SPH_FLUID_SUMS)  \
-  X(kernel, dim, any, k->terms & ~(unsigned)SPH_XSPH, 3 * dim + 7, SPH_FLUID_SUMS)               \
-  X(kernel, dim, xsph, k->terms, 3 * dim + 7, SPH_FLUID_SUMS_ALL)
+  X(kernel, dim, any, k->terms & ~(unsigned)SPH_RARE, 3 * dim + 5, SPH_FLUID_SUMS)               \
+  X(kernel, dim, all, k->terms, 3 * dim + 7, SPH_FLUID_SUMS_ALL)
 
 enum {
 #define SPH_FLUID_SET_ENUM(kernel, dim, name, mask, slots, sums) SPH_FLUID_SET_##name,

@@ -31,7 +31,9 @@ enum {
   SPH_WALL = 32768,    /* the source is a wall, */
   SPH_NO_SLIP = 65536, /* and viscous terms see it */
   SPH_DIFFUSION = SPH_MOLTENI | SPH_ANTUONO | SPH_FOURTAKAS,
-  SPH_VISCOUS = SPH_ARTIFICIAL | SPH_SIGNAL | SPH_MORRIS | SPH_MCG
+  SPH_VISCOUS = SPH_ARTIFICIAL | SPH_SIGNAL | SPH_MORRIS | SPH_MCG,
+  SPH_RARE =
+      SPH_FORM_PHI | SPH_SIGNAL | SPH_MORRIS | SPH_MCG | SPH_FOURTAKAS | SPH_CONDUCTION | SPH_XSPH
 };
 
 /* A record, in slots: x[dim] v[dim] rho p c V extra[dim] u T phi scalars.
