@@ -2,12 +2,12 @@
  * integrator_rdpk.c and in the schemes' own files: the largest c0 dt/h at which a run in steps dt
  * ends with the kinetic energy of a run in small steps, within 3 %.
  *
- * 2D Taylor-Green vortices, u = U sin(kx) cos(ky), v = -U cos(kx) sin(ky), k = 2 pi/L, in a periodic
- * box of 24 x 24 particles off their lattice by up to 0.1 dx; Wendland C2 with h = 1.5 dx; c0 = 10 U;
- * laminar viscosity nu = 0.01 U L and density diffusion delta = 0.1; to t = 0.5 L/U, 80 h/c0 (twice
- * that lowers S by 1 to 5 %, a third raises it by 6 to 20 %).  dt rises from half of the value
- * that the table has, in factors of 1.03, to the first that fails; that gap is halved until it is
- * under 0.5 %. */
+ * 2D Taylor-Green vortices, u = U sin(kx) cos(ky), v = -U cos(kx) sin(ky), k = 2 pi/L, in a
+ * periodic box of 24 x 24 particles off their lattice by up to 0.1 dx; Wendland C2, h = 1.5 dx;
+ * c0 = 10 U; laminar viscosity nu = 0.01 U L and density diffusion delta = 0.1; to t = 0.5 L/U,
+ * 80 h/c0 (twice that lowers S by 1 to 5 %, a third raises it by 6 to 20 %).  dt rises from half of
+ * the value that the table has, in factors of 1.03, to the first that fails; that gap is halved
+ * until it is under 0.5 %. */
 #include <sphode.h>
 
 #include "bench.h"
