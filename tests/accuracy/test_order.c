@@ -1,6 +1,6 @@
-/* The order of the integrators on particles: a periodic box of weakly compressible fluid, vortices and
- * sound of finite amplitude, with smooth terms only (continuity, pressure) and a kernel that is smooth
- * enough, Wendland C6: forces have five continuous derivatives in the positions.
+/* The order of the integrators on particles: a periodic box of weakly compressible fluid, vortices
+ * and sound of finite amplitude, with smooth terms only (continuity, pressure) and a kernel that is
+ * smooth enough, Wendland C6: forces have five continuous derivatives in the positions.
  *
  * Against a run of order eight with far smaller steps: error(dt) ~ dt^order.  For tables of order
  * five and more the smoothness of the kernel and rounding are the limit, tests/unit/test_butcher.c

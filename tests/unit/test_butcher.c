@@ -37,8 +37,8 @@ static tree grow(const forest *f, tree t, const tree *branch)
   return t;
 }
 
-/* All trees whose branches are those of t and more of the trees up to number `last`, `left` vertices
- * in all. */
+/* All trees whose branches are those of t and more of the trees up to number `last`, with `left`
+ * vertices in all. */
 static void branch(forest *f, tree t, int last, int left)
 {
   if (left == 0) {
