@@ -6,7 +6,6 @@
 
 #include "integrator_data.h"
 #include "integrator_rdpk.h"
-#include "stability.h"
 
 /* The staggered leapfrog and the velocity Verlet scheme are one scheme in two notations. */
 static const struct {
@@ -98,8 +97,6 @@ int sph_integrator_table_info(int k, sph_integrator_info *info)
                                 .error_control = table->d != NULL && table->p > 0,
                                 .stability = rdpk(k) < 0 ? erk[k - OWN].stability
                                                          : sph_integrator_rdpk_stability(rdpk(k))};
-  if (info->stability == 0)
-    info->stability = sph_stability(table->stages, (const double *const *)table->A, table->b);
   ARKodeButcherTable_Free(table);
   return 1;
 }

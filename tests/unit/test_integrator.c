@@ -16,7 +16,6 @@
 
 #include "integrator_table.h"
 #include "ode.h"
-#include "stability.h"
 
 static const double TURN = 6.283185307179586;
 
@@ -97,15 +96,6 @@ static void rows_tell_the_truth(void **state)
   assert_string_equal(sph_bound_name(SPH_BOUND_CFL), "cfl");
   assert_string_equal(sph_bound_name(SPH_BOUND_RETRY), "retry");
   assert_string_equal(sph_bound_name(99), "");
-}
-
-/* Forward Euler: |1 + z| <= 1 for z = r (-zeta + i sqrt(1 - zeta^2)) up to r = 2 zeta, zeta >=
- * 0.1. */
-static void stability_of_euler(void **state)
-{
-  (void)state;
-  const double A[1] = {0}, *rows[1] = {A}, b[1] = {1};
-  assert_float_equal(sph_stability(1, rows, b), 0.84 * 0.2, 0.006);
 }
 
 /* Largest error of the state inside the steps. */
@@ -562,7 +552,6 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_scheme_has_its_order),
       cmocka_unit_test(rows_tell_the_truth),
-      cmocka_unit_test(stability_of_euler),
       cmocka_unit_test(dense_output_keeps_the_order),
       cmocka_unit_test(leapfrog_keeps_the_energy),
       cmocka_unit_test(only_heun_amplifies_oscillations),
