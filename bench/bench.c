@@ -25,6 +25,8 @@ double bench_thread_seconds(void)
 
 int bench_wanted(const char *name) { return !options.filter || strstr(name, options.filter); }
 
+int bench_filtered(void) { return options.filter != NULL; }
+
 int bench_quick(void) { return options.quick; }
 
 static int rising(const void *a, const void *b)
@@ -66,5 +68,6 @@ int main(int argc, char **argv)
   bench_neighbors();
   bench_rhs();
   bench_integration();
+  bench_stability();
   return 0;
 }

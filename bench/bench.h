@@ -6,12 +6,15 @@
 double bench_thread_seconds(void);
 /* Is a figure of that name asked for (--filter)? */
 int bench_wanted(const char *name);
+/* Is there a filter?  What takes long runs only when asked for. */
+int bench_filtered(void);
 /* One figure: median of values[n], with its spread (max - min)/median. */
 void bench_report(const char *name, const char *unit, double *values, int n);
 int bench_quick(void); /* --quick: small sizes */
 
 void bench_neighbors(void);   /* sort and list build */
 void bench_rhs(void);         /* right-hand sides */
+void bench_stability(void);   /* stability limits of the integrators; with --filter only */
 void bench_integration(void); /* time integration around the right-hand side */
 
 #endif

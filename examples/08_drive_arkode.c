@@ -3,8 +3,9 @@
  * Equations  y' = f(t, y), a patch of fluid on a spring, dv/dt = ... - Omega^2 x: its centre swings
  *            as X(t) = X0 cos(Omega t) whatever happens inside, where forces are antisymmetric in
  *            pairs.  An event is a root of g(t, y) = X
- * Reference  D. R. Reynolds, D. J. Gardner, C. S. Woodward & R. Chinomona (2023), ARKODE: a flexible
- *            IVP solver infrastructure for one-step methods, ACM Trans. Math. Softw. 49, 19
+ * Reference  D. R. Reynolds, D. J. Gardner, C. S. Woodward & R. Chinomona (2023), ARKODE: a
+ *            flexible IVP solver infrastructure for one-step methods, ACM Trans. Math. Softw. 49,
+ *            19
  * Run        ./08_drive_arkode
  * See        the times at which the centre passes the origin
  * Check      they are pi/(2 Omega), 3 pi/(2 Omega), 5 pi/(2 Omega) within 1e-5 of a period

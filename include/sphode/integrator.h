@@ -83,7 +83,7 @@ typedef struct sph_integrator_info {
   int order;
   int stages;        /* right-hand sides a step */
   int error_control; /* has an embedded error estimate */
-  double stability;  /* limit S, measured or estimated: dt <= S h/(c + |v|) */
+  double stability;  /* limit S, measured: dt <= S h/(c + |v|) */
 } sph_integrator_info;
 
 /* Row k = 0, 1, ...; returns 0 behind the last. */

@@ -36,4 +36,4 @@ static int step(void *ctx, sph_ode *ode)
 }
 
 const sph_scheme sph_integrator_dkd = {
-    .name = "dkd", .order = 2, .stages = 1, .stability = 0.7, .carries = 1, .step = step};
+    .name = "dkd", .order = 2, .stages = 1, .stability = 0.62, .carries = 1, .step = step};

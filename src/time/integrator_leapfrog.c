@@ -55,4 +55,4 @@ static int step(void *ctx, sph_ode *ode)
 }
 
 const sph_scheme sph_integrator_leapfrog = {
-    .name = "leapfrog", .order = 2, .stages = 1, .stability = 0.72, .carries = 1, .step = step};
+    .name = "leapfrog", .order = 2, .stages = 1, .stability = 0.62, .carries = 1, .step = step};

@@ -25,4 +25,4 @@ static int step(void *ctx, sph_ode *ode)
 }
 
 const sph_scheme sph_integrator_predictor_corrector = {
-    .name = "predictor-corrector", .order = 2, .stages = 2, .stability = 1.3, .step = step};
+    .name = "predictor-corrector", .order = 2, .stages = 2, .stability = 1.07, .step = step};

@@ -15,6 +15,7 @@ enum { STAGES = 9 };
 
 typedef struct pair {
   const char *name;
+  double stability; /* S, bench/bench_stability.c */
   int stages, order, fsal;
   double control[3]; /* exponents of the step size controller */
   double gamma1[STAGES], gamma2[STAGES], delta[STAGES], beta[STAGES];
@@ -23,6 +24,7 @@ typedef struct pair {
 
 static const pair pairs[] = {
     {"erk:rdpk3sp35-5-2-3",
+     2.94,
      5,
      3,
      0,
@@ -40,6 +42,7 @@ static const pair pairs[] = {
       4.482446645568668405072421e-01, 2.449030295461310135957132e-01,
       1.070116530120251819121660e-01}},
     {"erk:rdpk3sp49-9-3-4",
+     4.32,
      9,
      4,
      0,
@@ -67,6 +70,7 @@ static const pair pairs[] = {
       -5.999303132737865921441409e-03, 9.405093434568315929035250e-02,
       2.169318087627035072893925e-01}},
     {"erk:rdpk3spfsal35-6-2-3",
+     2.94,
      5,
      3,
      1,
@@ -84,6 +88,7 @@ static const pair pairs[] = {
       3.998243189084371024483169e-01, 1.718016807580178450618829e-01,
       5.881914422155740300718268e-02, 1.020760551185952388626787e-01}},
     {"erk:rdpk3spfsal49-10-3-4",
+     4.32,
      9,
      4,
      1,
@@ -119,6 +124,8 @@ const double *sph_integrator_rdpk_control(int k)
 {
   return k >= 0 && k < PAIRS ? pairs[k].control : NULL;
 }
+
+double sph_integrator_rdpk_stability(int k) { return pairs[k].stability; }
 
 ARKodeButcherTable sph_integrator_rdpk_table(int k)
 {

@@ -37,4 +37,4 @@ static int step(void *ctx, sph_ode *ode)
 }
 
 const sph_scheme sph_integrator_symplectic = {
-    .name = "symplectic", .order = 2, .stages = 2, .stability = 1.3, .step = step};
+    .name = "symplectic", .order = 2, .stages = 2, .stability = 1.07, .step = step};

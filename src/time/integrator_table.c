@@ -6,7 +6,6 @@
 
 #include "integrator_data.h"
 #include "integrator_rdpk.h"
-#include "stability.h"
 
 /* The staggered leapfrog and the velocity Verlet scheme are one scheme in two notations. */
 static const struct {
@@ -31,9 +30,6 @@ static const struct {
 #include "integrator_table.def"
 #undef X
 };
-
-/* S of the pairs in integrator_rdpk.c; 0: estimated. */
-static const double rdpk_stability[] = {0, 0, 0, 0};
 
 /* Those that this SUNDIALS has. */
 static int arkode_rows(void)
@@ -99,10 +95,8 @@ int sph_integrator_table_info(int k, sph_integrator_info *info)
                                 .order = table->q,
                                 .stages = table->stages - sph_integrator_table_fsal(table),
                                 .error_control = table->d != NULL && table->p > 0,
-                                .stability =
-                                    rdpk(k) < 0 ? erk[k - OWN].stability : rdpk_stability[rdpk(k)]};
-  if (info->stability == 0)
-    info->stability = sph_stability(table->stages, (const double *const *)table->A, table->b);
+                                .stability = rdpk(k) < 0 ? erk[k - OWN].stability
+                                                         : sph_integrator_rdpk_stability(rdpk(k))};
   ARKodeButcherTable_Free(table);
   return 1;
 }

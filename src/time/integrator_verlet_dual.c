@@ -38,4 +38,4 @@ static int step(void *ctx, sph_ode *ode)
 }
 
 const sph_scheme sph_integrator_verlet_dual = {
-    .name = "verlet-dual", .order = 2, .stages = 1, .stability = 0.5, .work = 2, .step = step};
+    .name = "verlet-dual", .order = 2, .stages = 1, .stability = 0.21, .work = 2, .step = step};

@@ -13,24 +13,21 @@ const sph_segment *sph_scheme_velocity(const sph_ode *ode, int k)
 void sph_scheme_advance(const sph_ode *ode, long n, double h, double *y, const double *y0,
                         const double *g, const double *f)
 {
-  int threads = ode->threads;
-#pragma omp parallel for simd num_threads(threads) schedule(static) if (n >= PARALLEL_MIN)
+#pragma omp parallel for simd num_threads(ode->threads) schedule(static) if (n >= PARALLEL_MIN)
   for (long i = 0; i < n; i++) y[i] = y0[i] + h * (f ? g[i] + h / 2 * f[i] : g[i]);
 }
 
 void sph_scheme_kick(const sph_ode *ode, long n, double h, double *y, const double *y0,
                      const double *f0, const double *f1)
 {
-  int threads = ode->threads;
-#pragma omp parallel for simd num_threads(threads) schedule(static) if (n >= PARALLEL_MIN)
+#pragma omp parallel for simd num_threads(ode->threads) schedule(static) if (n >= PARALLEL_MIN)
   for (long i = 0; i < n; i++) y[i] = y0[i] + h / 2 * (f0[i] + f1[i]);
 }
 
 void sph_scheme_slip(const sph_ode *ode, long n, double h, double *y, const double *y0,
                      const double *f, const double *v)
 {
-  int threads = ode->threads;
-#pragma omp parallel for simd num_threads(threads) schedule(static) if (n >= PARALLEL_MIN)
+#pragma omp parallel for simd num_threads(ode->threads) schedule(static) if (n >= PARALLEL_MIN)
   for (long i = 0; i < n; i++) y[i] = y0[i] + h * (f[i] - v[i]);
 }
 

@@ -65,6 +65,62 @@ static void has_its_order(void **state)
   }
 }
 
+/* Leapfrog as it is often printed.  HALF: forces see v and q at half the step, order 1 instead of 2
+ * where they depend on them.  DOUBLE: positions are moved by h/2 before they are moved by h. */
+enum { HALF, DOUBLE };
+
+static int as_printed(void *ctx, sph_ode *o)
+{
+  const double *y0 = o->y0, h = o->h;
+  double *v = o->work[0], *f = o->work[1], *y = o->y;
+  int way = *(int *)ctx;
+  for (long i = 0; i < o->n; i++) y[i] = v[i] = y0[i] + h / 2 * o->f0[i]; /* half a step */
+  for (int k = 0; k < o->segments; k++) {
+    const sph_segment *s = &o->segment[k];
+    if (s->partner < 0) continue;
+    long r = s->offset, u = o->segment[s->partner].offset;
+    y[r] = (way == DOUBLE ? y[r] : y0[r]) + h * y[u];
+  }
+  int status = sph_ode_rhs(o, o->t1, y, f);
+  for (int k = 0; !status && k < o->segments; k++) {
+    long i = o->segment[k].offset;
+    if (o->segment[k].partner < 0) y[i] = v[i] + h / 2 * f[i];
+  }
+  return status;
+}
+
+static double error_as_printed(int way, void (*make)(ode *o), double t, int n)
+{
+  const sph_scheme scheme = {.name = "printed",
+                             .order = 2,
+                             .stages = 2,
+                             .stability = 0.7,
+                             .work = 2,
+                             .step = as_printed,
+                             .ctx = &way};
+  ode o;
+  make(&o);
+  ode_start(&o, &(sph_integrator_def){.own = &scheme, .dt_fixed = t / n});
+  assert_int_equal(ode_run(&o, t), SPH_OK);
+  double error = ode_error(&o, t, o.y);
+  ode_end(&o);
+  return error;
+}
+
+static void leapfrog_as_printed_lacks_order(void **state)
+{
+  (void)state;
+  double half[2], twice[2], kepler[2];
+  for (int k = 0; k < 2; k++) {
+    half[k] = error_as_printed(HALF, ode_made, 2, 1000 << k);
+    twice[k] = error_as_printed(DOUBLE, ode_made, 2, 1000 << k);
+    kepler[k] = error_as_printed(HALF, ode_kepler, 2 * acos(-1), 1000 << k);
+  }
+  assert_float_equal(log2(half[0] / half[1]), 1, 0.05);
+  assert_float_equal(log2(twice[0] / twice[1]), 0, 0.05);
+  assert_float_equal(log2(kepler[0] / kepler[1]), 2, 0.05); /* forces of positions alone */
+}
+
 /* What a step is given, in a run with a stop time and a retry. */
 typedef struct seen {
   double t[64], h[64], h_last[64];
@@ -207,6 +263,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(has_its_order),
+      cmocka_unit_test(leapfrog_as_printed_lacks_order),
       cmocka_unit_test(is_told_what_it_needs),
       cmocka_unit_test(errors_inside_a_step_are_told),
       cmocka_unit_test(incomplete_ones_are_refused),
