@@ -412,7 +412,7 @@ typedef struct picture {
 static void add_curve(const comparer *a, picture *p, const char *path, int exact, int k, int c,
                       double t)
 {
-  int n = p->n++, axis = along(a);
+  int n = p->n++, axis = along(a), several = quantity_of(a).components > 1;
   double scale = get_number(a->node, "value_scale", 1);
   snprintf(p->y[n], NAME, "%s%d_%d", exact ? "exact" : "run", c, k);
   if (axis >= 0)
@@ -422,7 +422,7 @@ static void add_curve(const comparer *a, picture *p, const char *path, int exact
   if (exact)
     snprintf(p->label[n], NAME, "%s", k || c ? "" : "exact");
   else
-    snprintf(p->label[n], NAME, "t = %.3g s", t);
+    snprintf(p->label[n], NAME, several ? "t = %.3g s, %c" : "t = %.3g s", t, 'x' + c);
   p->curve[n] = (sph_plot_curve){.csv = path,
                                  .x = p->x[n],
                                  .y = p->y[n],
