@@ -435,8 +435,8 @@ static void add_curve(const comparer *a, picture *p, const char *path, int exact
 
 int sph_case_profile_plot(const comparer *a, const char *png)
 {
-  char path[SPH_PATH], x_label[NAME];
-  double times[TIMES] = {sph_case_end(a->c)};
+  char path[SPH_PATH], x_label[NAME], y_label[2 * NAME];
+  double times[TIMES] = {sph_case_end(a->c)}, scale = get_number(a->node, "value_scale", 1);
   quantity q = quantity_of(a);
   int given = times_of(a, times), count = given > 0 ? given : 1, axis = along(a);
   int status = given < 0 ? given : table_path(a, path);
@@ -446,9 +446,11 @@ int sph_case_profile_plot(const comparer *a, const char *png)
     for (int k = 0; k < count; k++)
       for (int c = 0; c < q.components; c++) add_curve(a, p, path, exact, k, c, times[k]);
   snprintf(x_label, sizeof x_label, axis < 0 ? "exact" : "%c [m]", 'x' + axis);
+  snprintf(y_label, sizeof y_label, scale == 1 ? "%s" : "%s/%.3g",
+           get_text(a->node, "quantity", ""), scale);
   sph_plot_def def = {.title = get_text(a->node, "name", NULL),
                       .x_label = x_label,
-                      .y_label = get_text(a->node, "quantity", "")};
+                      .y_label = y_label};
   status = sph_plot_series(p->curve, p->n, &def, png, a->error);
   sph_memory_free(p);
   return status;
