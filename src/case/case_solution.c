@@ -64,7 +64,7 @@ static int column_at(const moment *m, const char *field, int c, double *to, sph_
   return of_column(m, &column, field, to, error);
 }
 
-/* The layer of a group that the reference names; the other layer is found through the simulation. */
+/* The layer of a group that the reference names; the simulation knows the other one. */
 static int layers_at(const moment *m, const char *field, int c, double *to, sph_error *error)
 {
   const char *name[2] = {get_text(m->reference, "lower", ""), get_text(m->reference, "upper", "")};

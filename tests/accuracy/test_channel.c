@@ -1,10 +1,11 @@
-/* A liquid between plates starts from rest: the upper plate slides (Couette) or a force acts along them
- * (Poiseuille), Re = 1, walls of Adami without slip, Morris' viscosity, 50 particles across, against the
- * series at t nu/L^2 = 0.0225, 0.045, 0.1125, 0.225, 0.5 (Morris, Fox & Zhu 1997).
+/* A liquid between plates starts from rest: the upper plate slides (Couette) or a force acts along
+ * them (Poiseuille), Re = 1, walls of Adami without slip, Morris' viscosity, 50 particles across,
+ * against the series at t nu/L^2 = 0.0225, 0.045, 0.1125, 0.225, 0.5 (Morris, Fox & Zhu 1997).
  *
- * Error: rms of v_x over the particles, over the largest speed.  Bars at h/dx = 1.5: 0.15 % (Couette),
- * 0.35 % (Poiseuille); order between 25 and 50 at t nu/L^2 <= 0.045: 1.  At fixed h/dx a floor of 0.3 %
- * remains later on, of the sum over the kernel; SPHODE_TEST_LONG=1: h/dx = 2, 0.15 %. */
+ * Error: rms of v_x over the particles, over the largest speed.  Bars at h/dx = 1.5: 0.15 %
+ * (Couette), 0.35 % (Poiseuille); order between 25 and 50 at t nu/L^2 <= 0.045: 1.  At fixed h/dx
+ * a floor of 0.3 % remains later on, of the sum over the kernel; SPHODE_TEST_LONG=1: h/dx = 2,
+ * 0.15 %. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

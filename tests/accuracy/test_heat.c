@@ -1,9 +1,9 @@
 /* Heat conduction at rest in 1D (Cleary & Monaghan 1999).
  *
- * Slab: faces of constant temperature, T = T0 + A sin(pi x/L) keeps its shape and decays; 100 particles,
- * h/dx = 2, until it has fallen to 0.14 A.  Two media: glass touches steel, error functions; 100
- * particles each.  Error: rms of T over A or over the difference of temperatures; bar 0.5 %.  Between
- * two media no heat is lost; a wall without a temperature lets none through. */
+ * Slab: faces of constant temperature, T = T0 + A sin(pi x/L) keeps its shape and decays; 100
+ * particles, h/dx = 2, until it has fallen to 0.14 A.  Two media: glass touches steel, error
+ * functions; 100 particles each.  Error: rms of T over A or over the difference of temperatures;
+ * bar 0.5 %.  Between two media no heat is lost; a wall without a temperature lets none through. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -145,8 +145,7 @@ static double two_media_at(int n)
   for (double t = 0.125; t <= 0.5; t *= 2) {
     run_to(sim, t);
     double error = error_of(sim, &exact);
-    print_message("# two media, %d particles each, t = %g s: rms %.3f %%\n", n, t,
-                  100 * error);
+    print_message("# two media, %d particles each, t = %g s: rms %.3f %%\n", n, t, 100 * error);
     most = fmax(most, error);
   }
   assert_true(fabs(heat_of(sim) / before - 1) <= 1e-12);

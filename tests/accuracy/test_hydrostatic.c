@@ -2,10 +2,10 @@
  * at rest, with the density diffusion of Antuono and of Fourtakas.
  *
  * Bars: L1(p) = mean |p - p_exact|/(rho0 g H) <= 0.4 % and kinetic energy <= 1e-6 of the potential
- * one, at t sqrt(g/H) = 40; SPHODE_TEST_LONG=1: at 120.  Fourtakas' takes the column of the reference
- * density for that of the liquid, an error of order g H/c0^2 that drifts: 0.30 % at 40, 0.38 % at 120
- * with walls that may pull, 0.37 % and 0.47 % with the usual p_w >= 0.  Molteni's knows no gravity and
- * lifts the surface: its drift is told, and that it is the largest. */
+ * one, at t sqrt(g/H) = 40; SPHODE_TEST_LONG=1: at 120.  Fourtakas' takes the column of the
+ * reference density for that of the liquid, an error of order g H/c0^2 that drifts: 0.30 % at 40,
+ * 0.38 % at 120 with walls that may pull, 0.37 % and 0.47 % with the usual p_w >= 0.  Molteni's
+ * knows no gravity and lifts the surface: its drift is told, and that it is the largest. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

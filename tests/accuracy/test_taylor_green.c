@@ -1,7 +1,7 @@
-/* Taylor-Green vortices in a periodic box of length L, Re = U L/nu = 100, 50 x 50 particles that start
- * up to 0.2 dx off their lattice, without shifting: the mean length of v - v_exact at t = L/U, bar 5 % of
- * U (the honest baseline: a lattice start clumps on the stagnation lines).  With that, the kinetic energy
- * over that of the solution is told, and momentum stays. */
+/* Taylor-Green vortices in a periodic box of length L, Re = U L/nu = 100, 50 x 50 particles that
+ * start up to 0.2 dx off their lattice, without shifting: the mean length of v - v_exact at t =
+ * L/U, bar 5 % of U (the honest baseline: a lattice start clumps on the stagnation lines).  With
+ * that, the kinetic energy over that of the solution is told, and momentum stays. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
