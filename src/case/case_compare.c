@@ -1,5 +1,5 @@
-/* What a run says against its references: tables and exact solutions over time here, exact solutions
- * in space in case_profile.c. */
+/* What a run says against its references: tables and exact solutions over time here, exact
+ * solutions in space in case_profile.c. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

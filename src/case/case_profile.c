@@ -122,33 +122,35 @@ static int from_simulation(const comparer *a, const quantity *q, profile *p)
   return SPH_OK;
 }
 
-/* One field of all fluids of a snapshot, [p->n], multiplied or divided into to, and positions. */
+/* One field of all fluids of a snapshot to to[p->n], and their positions. */
 static int read_field(const comparer *a, const char *path, const char *field, profile *p,
                       double *to)
 {
   sph_snapshot s;
   int status = sph_snapshot_read(path, field, &s, a->error);
   if (status) return status;
-  if (s.n[SPH_FLUIDS] != p->n || !s.value[SPH_FLUIDS])
-    status =
-        sph_error_set(a->error, SPH_ERR_FILE, "%s: %ld fluid particles with %s; the case has %ld",
-                      path, s.value[SPH_FLUIDS] ? s.n[SPH_FLUIDS] : 0, field, p->n);
-  for (long i = 0; i < p->n && !status; i++) {
-    for (int d = 0; d < a->c->dim; d++) p->x[d][i] = s.x[SPH_FLUIDS][3 * i + d];
-    to[i] = s.value[SPH_FLUIDS][i];
+  const double *x = s.x[SPH_FLUIDS], *value = s.value[SPH_FLUIDS];
+  long found = x && value ? s.n[SPH_FLUIDS] : 0;
+  if (!x || !value || found != p->n) {
+    sph_snapshot_read_free(&s);
+    return sph_error_set(a->error, SPH_ERR_FILE,
+                         "%s: %ld fluid particles with %s; the case has %ld", path, found, field,
+                         p->n);
+  }
+  for (long i = 0; i < p->n; i++) {
+    for (int d = 0; d < a->c->dim; d++) p->x[d][i] = x[3 * i + d];
+    to[i] = value[i];
   }
   sph_snapshot_read_free(&s);
-  return status;
+  return SPH_OK;
 }
 
 static int from_snapshot(const comparer *a, const char *path, const quantity *q, profile *p)
 {
-  int status = read_field(a, path, "mass", p, p->weight), vector = 0, number = 0;
+  int number = sph_field_find(q->field), vector = number >= 0 && sph_field_get(number)->vector;
+  int status = read_field(a, path, "mass", p, p->weight);
   if (!status) status = read_field(a, path, "density", p, p->exact[0]); /* in passing */
   for (long i = 0; i < p->n && !status; i++) p->weight[i] /= p->exact[0][i];
-  number = sph_field_find(q->field);
-  if (number < 0) return fail(a, child_of(a->node, "quantity"), "no such field");
-  vector = sph_field_get(number)->vector;
   for (int c = 0; c < q->components && !status; c++) {
     char name[80];
     snprintf(name, sizeof name, vector ? "%s_%c" : "%s", q->field, 'x' + q->first + c);
@@ -412,7 +414,7 @@ typedef struct picture {
 static void add_curve(const comparer *a, picture *p, const char *path, int exact, int k, int c,
                       double t)
 {
-  int n = p->n++, axis = along(a);
+  int n = p->n++, axis = along(a), several = quantity_of(a).components > 1;
   double scale = get_number(a->node, "value_scale", 1);
   snprintf(p->y[n], NAME, "%s%d_%d", exact ? "exact" : "run", c, k);
   if (axis >= 0)
@@ -422,7 +424,7 @@ static void add_curve(const comparer *a, picture *p, const char *path, int exact
   if (exact)
     snprintf(p->label[n], NAME, "%s", k || c ? "" : "exact");
   else
-    snprintf(p->label[n], NAME, "t = %.3g s", t);
+    snprintf(p->label[n], NAME, several ? "t = %.3g s, %c" : "t = %.3g s", t, 'x' + c);
   p->curve[n] = (sph_plot_curve){.csv = path,
                                  .x = p->x[n],
                                  .y = p->y[n],
@@ -435,8 +437,8 @@ static void add_curve(const comparer *a, picture *p, const char *path, int exact
 
 int sph_case_profile_plot(const comparer *a, const char *png)
 {
-  char path[SPH_PATH], x_label[NAME];
-  double times[TIMES] = {sph_case_end(a->c)};
+  char path[SPH_PATH], x_label[NAME], y_label[2 * NAME];
+  double times[TIMES] = {sph_case_end(a->c)}, scale = get_number(a->node, "value_scale", 1);
   quantity q = quantity_of(a);
   int given = times_of(a, times), count = given > 0 ? given : 1, axis = along(a);
   int status = given < 0 ? given : table_path(a, path);
@@ -446,9 +448,11 @@ int sph_case_profile_plot(const comparer *a, const char *png)
     for (int k = 0; k < count; k++)
       for (int c = 0; c < q.components; c++) add_curve(a, p, path, exact, k, c, times[k]);
   snprintf(x_label, sizeof x_label, axis < 0 ? "exact" : "%c [m]", 'x' + axis);
+  snprintf(y_label, sizeof y_label, scale == 1 ? "%s" : "%s/%.3g",
+           get_text(a->node, "quantity", ""), scale);
   sph_plot_def def = {.title = get_text(a->node, "name", NULL),
                       .x_label = x_label,
-                      .y_label = get_text(a->node, "quantity", "")};
+                      .y_label = y_label};
   status = sph_plot_series(p->curve, p->n, &def, png, a->error);
   sph_memory_free(p);
   return status;

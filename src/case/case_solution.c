@@ -64,7 +64,7 @@ static int column_at(const moment *m, const char *field, int c, double *to, sph_
   return of_column(m, &column, field, to, error);
 }
 
-/* The layer of a group that the reference names; the other layer is found through the simulation. */
+/* The layer of a group that the reference names; the simulation knows the other one. */
 static int layers_at(const moment *m, const char *field, int c, double *to, sph_error *error)
 {
   const char *name[2] = {get_text(m->reference, "lower", ""), get_text(m->reference, "upper", "")};
@@ -144,6 +144,33 @@ static int wave_at(const moment *m, const char *field, int c, double *to, sph_er
   return SPH_OK;
 }
 
+static sph_exact_medium medium_of(const sph_case_node *map)
+{
+  return (sph_exact_medium){.temperature = get_number(map, "temperature", 0),
+                            .conductivity = get_number(map, "conductivity", 0),
+                            .capacity = get_number(map, "density", 0) *
+                                        get_number(map, "specific_heat", 0)};
+}
+
+static int heat_mode_at(const moment *m, const char *field, int c, double *to, sph_error *error)
+{
+  sph_exact_heat_mode mode = {.medium = medium_of(m->reference),
+                              .amplitude = get_number(m->reference, "amplitude", 0),
+                              .k = 2 * pi / get_number(m->reference, "length", 0)};
+  (void)c;
+  if (!is(field, "temperature")) return SPH_CASE_NO_FIELD;
+  return sph_exact_heat_mode_at(&mode, m->time, m->n, m->x[0], to, error);
+}
+
+static int heat_step_at(const moment *m, const char *field, int c, double *to, sph_error *error)
+{
+  sph_exact_heat_step step = {.left = medium_of(child_of(m->reference, "left")),
+                              .right = medium_of(child_of(m->reference, "right"))};
+  (void)c;
+  if (!is(field, "temperature")) return SPH_CASE_NO_FIELD;
+  return sph_exact_heat_step_at(&step, m->time, m->n, m->x[0], to, error);
+}
+
 static const sph_case_solution solutions[] = {
     {"riemann", "a Riemann problem has density, velocity, pressure, energy", 0, riemann_at},
     {"column", "a column at rest has pressure, density", SPH_CASE_ALONG_LAST, column_at},
@@ -151,6 +178,8 @@ static const sph_case_solution solutions[] = {
     {"channel", "a channel has velocity", SPH_CASE_ALONG_LAST, channel_at},
     {"taylor-green", "these vortices have velocity, pressure", SPH_CASE_ALONG_NONE,
      taylor_green_at},
+    {"heat-mode", "conduction has temperature", 0, heat_mode_at},
+    {"heat-step", "conduction has temperature", 0, heat_step_at},
     {"wave", "a wave has density, velocity, pressure", 0, wave_at},
 };
 

@@ -74,8 +74,8 @@ typedef struct sph_exact_layers {
 int sph_exact_layers_column(const sph_exact_layers *layers, int upper, sph_exact_column *column,
                             sph_error *error);
 
-/* --- Channel: a liquid at rest between walls at y = 0 and y = width; at t = 0 the upper wall begins
- * to move (Couette), a force along the walls to act (Poiseuille), or both --- */
+/* --- Channel: a liquid at rest between walls at y = 0 and y = width; at t = 0 the upper wall
+ * begins to move (Couette), a force along the walls to act (Poiseuille), or both --- */
 
 typedef struct sph_exact_channel {
   double width; /* [m], > 0 */

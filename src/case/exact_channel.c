@@ -1,8 +1,11 @@
-/* Channel flow that starts from rest (Morris, Fox & Zhu 1997): dv/dt = nu d2v/dy2 + force,
- * v(0) = 0, v(width) = speed.  In units of the width and of width^2/nu:
+/* Channel flow that starts from rest (Morris, Fox & Zhu 1997):
  *
- *   v = speed [y + sum_n 2/(n pi) (-1)^n sin(n pi y) exp(-n^2 pi^2 t)]                  n = 1, 2, ...
- *     + force/nu [y (1 - y)/2 - sum_n 4/(n pi)^3 sin(n pi y) exp(-n^2 pi^2 t)]          n odd
+ *   dv/dt = nu d2v/dy2 + force,  v(0) = 0,  v(width) = speed
+ *
+ * In units of the width and of width^2/nu:
+ *
+ *   v = speed [y + sum_n 2/(n pi) (-1)^n sin(n pi y) exp(-n^2 pi^2 t)]              n = 1, 2, ...
+ *     + force/nu [y (1 - y)/2 - sum_n 4/(n pi)^3 sin(n pi y) exp(-n^2 pi^2 t)]      n odd
  *
  * Terms are added until the exponential is below 1e-18.  Near t = 0 that would be many: a layer at
  * the wall thinner than 1e-5 of the width is taken as not yet there. */

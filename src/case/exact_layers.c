@@ -1,6 +1,6 @@
-/* Two liquids at rest, one above the other: dp/dz = -rho g in each (exact_column.c), and p continuous
- * where they meet, so that the lower one is a column whose surface carries the weight of the upper
- * one. */
+/* Two liquids at rest, one above the other: dp/dz = -rho g in each (exact_column.c), and p
+ * continuous where they meet, so that the lower one is a column whose surface carries the weight
+ * of the upper one. */
 #include <math.h>
 #include <stddef.h>
 

@@ -1,5 +1,5 @@
-/* Taylor-Green vortices (Taylor & Green 1937), an exact solution of the equations of an incompressible
- * liquid in a periodic box:
+/* Taylor-Green vortices (Taylor & Green 1937), an exact solution of the equations of an
+ * incompressible liquid in a periodic box:
  *
  *   v_x = -U cos kx sin ky exp(-2 nu k^2 t),  v_y = U sin kx cos ky exp(-2 nu k^2 t)
  *   p   = -(rho U^2/4) (cos 2kx + cos 2ky) exp(-4 nu k^2 t) */

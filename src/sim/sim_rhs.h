@@ -43,8 +43,8 @@ sph_particles sph_sim_bodies_particles(const sph_evaluation *e, int g);
 void sph_sim_interaction_add(sph_evaluation *e, int target, int source);
 fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_group *target,
                                               const sph_group *source);
-/* Does density diffuse between them?  Not between fluids of different reference density or sound
- * speed; with walls always. */
+/* Does density diffuse between them?  Not between a fluid and another, or a wall, of different
+ * reference density or sound speed. */
 int sph_sim_interaction_same_fluid(const sph_group *target, const sph_group *source);
 /* Which terms use tiles, and what these hold. */
 int sph_sim_interaction_prepare(sph_sim *sim);

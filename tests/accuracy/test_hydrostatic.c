@@ -1,8 +1,11 @@
 /* Water at rest in a tank, H/dx = 20, from the exact column of its equation of state: it must stay
- * at rest.
+ * at rest, with the density diffusion of Antuono and of Fourtakas.
  *
  * Bars: L1(p) = mean |p - p_exact|/(rho0 g H) <= 0.4 % and kinetic energy <= 1e-6 of the potential
- * one, at t sqrt(g/H) = 40; SPHODE_TEST_LONG=1: at 120. */
+ * one, at t sqrt(g/H) = 40; SPHODE_TEST_LONG=1: at 120.  Fourtakas' takes the column of the
+ * reference density for that of the liquid, an error of order g H/c0^2 that drifts: 0.30 % at 40,
+ * 0.38 % at 120 with walls that may pull, 0.37 % and 0.47 % with the usual p_w >= 0.  Molteni's
+ * knows no gravity and lifts the surface: its drift is told, and that it is the largest. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +21,7 @@
 
 static const double H = 1, g = 1, rho0 = 1000; /* [m], [m/s^2], [kg/m^3] */
 
-static sph_sim *tank(double wide)
+static sph_sim *tank(double wide, const char *diffusion, int tension)
 {
   const double dx = H / 20, c0 = 10 * sqrt(2 * g * H);
   sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = dx, .h_over_dx = 1.5});
@@ -26,11 +29,13 @@ static sph_sim *tank(double wide)
   sph_group *walls = sph_group_create(sim, "walls", "wall");
   sph_group_add_layers(walls, (double[]){0, 0}, (double[]){wide, 1.3 * H}, "y+", rho0);
   sph_group_set_eos(water, sph_eos_tait(rho0, c0, 7));
-  sph_group_set_boundary(walls, sph_boundary_adami());
+  sph_boundary boundary = sph_boundary_adami();
+  boundary.tension = tension;
+  sph_group_set_boundary(walls, boundary);
   sph_sim_add_term(sim, sph_term_continuity());
   sph_sim_add_term(sim, sph_term_pressure());
   sph_sim_add_term(sim, sph_term_viscosity_artificial(0.02, 0));
-  sph_sim_add_term(sim, sph_term_delta("antuono", 0.1));
+  sph_sim_add_term(sim, sph_term_delta(diffusion, 0.1));
   sph_sim_add_term(sim, sph_term_gravity((double[3]){0, -g, 0}));
   sph_group_set_hydrostatic(water, 1, H, g);
   return sim;
@@ -50,11 +55,11 @@ static double pressure_error(const sph_group *water)
   return sum / (double)n;
 }
 
-static void stays_at_rest(void **state)
+/* Error at the end; kinetic over potential energy to *motion. */
+static double rest(const char *diffusion, int tension, double *motion)
 {
-  (void)state;
   const double t_end = (getenv("SPHODE_TEST_LONG") ? 120 : 40) * sqrt(H / g);
-  sph_sim *sim = tank(H);
+  sph_sim *sim = tank(H, diffusion, tension);
   const sph_group *water = sph_sim_group(sim, "water");
   assert_int_equal(sph_sim_evaluate(sim), SPH_OK);
   double start = pressure_error(water);
@@ -63,16 +68,29 @@ static void stays_at_rest(void **state)
   double error = pressure_error(water);
   sph_balance balance;
   sph_sim_balance(sim, &balance);
-  double motion = balance.kinetic / (balance.mass * g * H / 2);
+  *motion = balance.kinetic / (balance.mass * g * H / 2);
   sph_sim_stats stats;
   sph_sim_get_stats(sim, &stats);
-  print_message("# t = %g: L1(p) = %.3f %% (start %.2g, bar 0.4 %%), kinetic/potential %.2g (bar "
-                "1e-6), %ld steps, %.1f s\n",
-                sph_sim_time(sim), 100 * error, start, motion, stats.step.steps, stats.seconds);
+  print_message("# %s, t = %g: L1(p) = %.3f %% (start %.2g), kinetic/potential %.2g, "
+                "%ld steps, %.1f s\n",
+                diffusion, sph_sim_time(sim), 100 * error, start, *motion, stats.step.steps,
+                stats.seconds);
   assert_true(start <= 1e-6);
-  assert_true(error <= 0.004);
-  assert_true(motion <= 1e-6);
   sph_sim_free(sim);
+  return error;
+}
+
+static void stays_at_rest(void **state)
+{
+  (void)state;
+  double motion, antuono = rest("antuono", 0, &motion);
+  assert_true(antuono <= 0.004);
+  assert_true(motion <= 1e-6);
+  double fourtakas = rest("fourtakas", 1, &motion);
+  assert_true(fourtakas <= 0.004);
+  assert_true(motion <= 1e-6);
+  double molteni = rest("molteni", 0, &motion);
+  assert_true(molteni > fourtakas && molteni > antuono);
 }
 
 int main(void)

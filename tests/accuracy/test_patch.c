@@ -1,8 +1,8 @@
-/* A disc of liquid without forces, v = (A x, -A y) at the start, becomes an ellipse (Monaghan 1994): at
- * t = 0.0076 s, A = 100/s, its semi-axes are 1.9445172 and 0.5142665 radii, within 1 %.
+/* A disc of liquid without forces, v = (A x, -A y) at the start, becomes an ellipse (Monaghan
+ * 1994): at t = 0.0076 s, A = 100/s, its semi-axes are 1.9445172 and 0.5142665 radii, within 1 %.
  *
- * R/dx = 20 (SPHODE_TEST_LONG=1: and 40), h/dx = 2.5: the lattice is drawn out to almost 2 dx along
- * x, so that usual 1.5 leave less than 1 there and 5 % of error, at any resolution. */
+ * R/dx = 20 (SPHODE_TEST_LONG=1: and 40), h/dx = 2.5: the lattice is drawn out to almost 2 dx
+ * along x, so that usual 1.5 leave less than 1 there and 5 % of error, at any resolution. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* Oil at rest on water in a tank, matched stiffness rho0 c0^2 (Colagrossi & Landrini 2003), from the
- * exact layers of both equations of state: they must stay at rest, and one above the other.
+/* Oil at rest on water in a tank, matched stiffness rho0 c0^2 (Colagrossi & Landrini 2003), from
+ * the exact layers of both equations of state: they must stay at rest, and one above the other.
  *
  * H/dx = 20.  Bars: L1(p) = mean |p - p_exact|/(rho_w g H) <= 0.4 %, kinetic energy <= 1e-6 of
  * (rho_w g H^3), at t sqrt(g/H) = 40; SPHODE_TEST_LONG=1: at 120. */

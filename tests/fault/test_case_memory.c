@@ -1,9 +1,11 @@
-/* Every allocation of reading and building a case fails once, the k-th for every k: the answer
- * is "out of memory", and nothing leaks (run under valgrind or with -fsanitize=address). */
+/* Every allocation of reading and building a case, and of comparing a run with an exact solution,
+ * fails once, the k-th for every k: the answer is "out of memory", and nothing leaks (run under
+ * valgrind or with -fsanitize=address). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -50,8 +52,50 @@ static void every_allocation_may_fail(void **state)
   assert_true(fail_at > 100);
 }
 
+/* Compared at a snapshot and at the end. */
+static void every_allocation_of_a_comparison_may_fail(void **state)
+{
+  static const char wave[] =
+      "dimension: 1\nspacing: 0.1\nperiodic: {axes: [x], lower: [0], upper: [1]}\n"
+      "groups: {w: {kind: fluid, density: 1, eos: {linear: {sound_speed: 1}},\n"
+      "  shapes: [{box: {lower: [0], upper: [1]}}]}}\n"
+      "terms: {continuity: , pressure: }\nrun: {end: 0.02}\noutput: {snapshots: 0.01}\n"
+      "compare: [{name: n, quantity: velocity, at: [0.01, 0.02], reference:\n"
+      "  {wave: {density: 1, sound_speed: 1, length: 1, amplitude: 0}}}]\n";
+  char directory[] = "/tmp/sphode-memory-XXXXXX";
+  sph_error error = {0};
+  sph_comparison *list;
+  int n, status = SPH_OK;
+  (void)state;
+  fail_at = 0;
+  assert_non_null(mkdtemp(directory));
+  sph_case *c = sph_case_read_text("case.yml", wave, strlen(wave), 0, NULL, &error);
+  sph_sim *sim = c ? sph_case_build(c, 1, &error) : NULL;
+  if (!sim) fail_msg("%s", error.text);
+  sph_case_build_outputs(c, sim, directory, NULL);
+  if (sph_sim_run(sim, sph_case_end(c))) fail_msg("%s", sph_sim_error(sim));
+  for (fail_at = 1;; fail_at++) {
+    error = (sph_error){0};
+    calls = 0;
+    status = sph_case_compare(c, sim, directory, &list, &n, &error);
+    if (calls < fail_at) break;
+    if (!status) fail_msg("allocation %ld failed, and nobody told", fail_at);
+    if (!strstr(error.text, "out of memory")) fail_msg("allocation %ld: %s", fail_at, error.text);
+    assert_null(list);
+  }
+  if (status) fail_msg("%s", error.text);
+  assert_true(list[0].value == 0 && fail_at > 10);
+  fail_at = 0;
+  sph_case_compare_free(list, n);
+  sph_sim_free(sim);
+  sph_case_free(c);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_allocation_may_fail)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(every_allocation_of_a_comparison_may_fail),
+  };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

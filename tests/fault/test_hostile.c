@@ -460,7 +460,23 @@ static void wrong_kind(void **state)
     sph_group_set_hydrostatic(s.water, 1, 1, bad[k]);
     assert_refused(s.sim, SPH_ERR_ARGUMENT, bad_text[k], "g");
     sph_sim_free(s.sim);
+    s = make();
+    sph_group_set_column(s.water, 1, 1, bad[k], 9.81);
+    assert_refused(s.sim, SPH_ERR_ARGUMENT, bad_text[k], "pressure at the surface");
+    sph_sim_free(s.sim);
   }
+  const double far[] = {NAN, INFINITY, -0.1, 0.51};
+  for (int k = 0; k < 4; k++) {
+    s = make();
+    sph_group_jitter(s.water, far[k], 1);
+    assert_refused(s.sim, SPH_ERR_ARGUMENT, "jitter", "jitter");
+    sph_sim_free(s.sim);
+  }
+  s = make();
+  assert_int_equal(sph_sim_evaluate(s.sim), SPH_OK);
+  sph_group_jitter(s.water, 0.1, 1);
+  assert_refused(s.sim, SPH_ERR_STATE, "before the run", "late jitter");
+  sph_sim_free(s.sim);
   s = make();
   assert_null(sph_group_read(s.water, "temperature", 0));
   assert_null(sph_group_read(s.water, "velocity", 2));
@@ -546,6 +562,8 @@ static void null_simulation(void **state)
   sph_group_set_eos(NULL, sph_eos_tait(1, 1, 1));
   sph_group_set_boundary(NULL, sph_boundary_adami());
   sph_group_set_hydrostatic(NULL, 0, 0, 0);
+  sph_group_set_column(NULL, 0, 0, 0, 0);
+  sph_group_jitter(NULL, 0.1, 1);
   sph_group_set_pressure(NULL, NULL);
   sph_group_set_viscosity(NULL, 1), sph_group_set_conductivity(NULL, 1);
   assert_true(sph_group_viscosity(NULL) == 0 && sph_group_conductivity(NULL) == 0);

@@ -324,6 +324,43 @@ static void a_preset_without_that_sound_speed(void **state)
   }
 }
 
+/* Uniform in [-0.2, 0.2] dx in each direction: mean 0, variance 0.2^2/3; the same every time. */
+static void jitter_moves_particles_off_their_lattice(void **state)
+{
+  const char *const set[][2] = {{"groups.water.jitter=0", "groups.water.seed=1"},
+                                {"groups.water.jitter=0.2", "groups.water.seed=1"},
+                                {"groups.water.jitter=0.2", "groups.water.seed=1"},
+                                {"groups.water.jitter=0.2", "groups.water.seed=2"}};
+  enum { CASES = 4, N = 200 };
+  double x[CASES][2][N], sum = 0, squares = 0, together = 0;
+  (void)state;
+  for (int k = 0; k < CASES; k++) {
+    sph_error error = {0};
+    sph_case *c = sph_case_read_text("small.yml", small, strlen(small), 2, set[k], &error);
+    sph_sim *sim = c ? sph_case_build(c, 1, &error) : NULL;
+    if (!sim) fail_msg("%s", error.text);
+    for (int d = 0; d < 2; d++)
+      memcpy(x[k][d], sph_group_read(sph_sim_group(sim, "water"), "position", d), sizeof x[k][d]);
+    sph_sim_free(sim);
+    sph_case_free(c);
+  }
+  for (int i = 0; i < N; i++) {
+    double by[2];
+    for (int d = 0; d < 2; d++) {
+      by[d] = (x[1][d][i] - x[0][d][i]) / 0.01;
+      assert_true(fabs(by[d]) <= 0.2);
+      assert_true(x[2][d][i] == x[1][d][i]);
+      assert_true(x[3][d][i] != x[1][d][i]);
+      sum += by[d], squares += by[d] * by[d];
+    }
+    together += by[0] * by[1];
+  }
+  double one = 0.2 / sqrt(3); /* standard deviation */
+  assert_true(fabs(sum / (2 * N)) < 4 * one / sqrt(2 * N));
+  assert_true(fabs(squares / (2 * N) / (one * one) - 1) < 4 * sqrt(0.8 / (2 * N)));
+  assert_true(fabs(together / N) < 4 * one * one / sqrt(N));
+}
+
 /* ---- broken files */
 
 static void check_broken(const char *directory, const char *file)
@@ -432,6 +469,7 @@ int main(void)
       cmocka_unit_test(a_wrong_set_says_so),
       cmocka_unit_test(a_byte_order_mark_is_skipped),
       cmocka_unit_test(the_simulation_is_what_the_file_says),
+      cmocka_unit_test(jitter_moves_particles_off_their_lattice),
       cmocka_unit_test(materials_are_what_the_file_says),
       cmocka_unit_test(a_preset_without_that_sound_speed),
       cmocka_unit_test(broken_files_say_what_is_wrong),

@@ -257,6 +257,112 @@ static void files_are_read_and_scaled(void **state)
   sph_case_free(c);
 }
 
+/* ---- solutions in space: a wave of amplitude e, compared with one of another amplitude */
+
+#define WAVE                                                                             \
+  "dimension: 1\nspacing: 0.025\nspeed: 3\nkernel: {name: cubic-spline, h_over_dx: 2}\n" \
+  "periodic: {axes: [x], lower: [0], upper: [1]}\n"                                      \
+  "groups: {w: {kind: fluid, density: 2, shapes: [{box: {lower: [0], upper: [1]}}],\n"   \
+  "  eos: {linear: {sound_speed: 3}}, initial: {velocity: [3e-6*cos(2*pi*x)],\n"         \
+  "  pressure: 18e-6*cos(2*pi*x)}}}\n"                                                   \
+  "terms: {continuity: {form: c1}, pressure: {form: s}}\nrun: {end: 1/3}\n"              \
+  "output: {snapshots: 1/12}\ncompare:\n"
+#define REFERENCE "reference: {wave: {density: 2, sound_speed: 3, length: 1, amplitude: "
+
+typedef struct wave_run {
+  sph_case *c;
+  sph_sim *sim;
+  char directory[40];
+} wave_run;
+
+static wave_run run_wave(const char *text)
+{
+  sph_error error = {0};
+  wave_run w = {.directory = "/tmp/sphode-compare-XXXXXX"};
+  assert_non_null(mkdtemp(w.directory));
+  w.c = sph_case_read_text("wave.yml", text, strlen(text), 0, NULL, &error);
+  w.sim = w.c ? sph_case_build(w.c, 1, &error) : NULL;
+  if (!w.sim) fail_msg("%s", error.text);
+  sph_case_build_outputs(w.c, w.sim, w.directory, NULL);
+  if (sph_sim_run(w.sim, sph_case_end(w.c))) fail_msg("%s", sph_sim_error(w.sim));
+  return w;
+}
+
+static void end_wave(wave_run *w)
+{
+  sph_sim_free(w->sim);
+  sph_case_free(w->c);
+}
+
+/* A wave of amplitude e against none: rms e/sqrt 2, mean 2 e/pi, largest e; at every time, from
+ * snapshots and from the end. */
+static void fields_are_compared_at_several_times(void **state)
+{
+  static const char text[] =
+      WAVE "  - {name: v, quantity: velocity, value_scale: 3e-6, norm: rms, at: [0, 1/12, 1/3],\n"
+           "     " REFERENCE "0}}}\n"
+           "  - {name: p, quantity: pressure, value_scale: 18e-6, norm: max, at: [1/6],\n"
+           "     " REFERENCE "0}}}\n"
+           "  - {name: l1, quantity: velocity_x, value_scale: 3e-6, norm: l1,\n"
+           "     " REFERENCE "2e-6}}}\n"
+           "  - {name: part, quantity: density, value_scale: 2e-6, norm: l1, at: [0],\n"
+           "     window: [0, 0.1], " REFERENCE "0}}}\n"
+           "  - {name: itself, quantity: density, value_scale: 2e-6, norm: max, at: [0],\n"
+           "     " REFERENCE "1e-6}}}\n";
+  const double pi = 3.14159265358979323846;
+  sph_error error = {0};
+  sph_comparison *list;
+  char path[100];
+  int n;
+  (void)state;
+  wave_run w = run_wave(text);
+  if (sph_case_compare(w.c, w.sim, w.directory, &list, &n, &error)) fail_msg("%s", error.text);
+  assert_int_equal(n, 5);
+  near(list[0].value, sqrt(0.5), 1e-6); /* the start is the largest */
+  assert_non_null(strstr(list[0].note, "at 0 s, "));
+  assert_non_null(strstr(list[0].note, "at 0.333 s"));
+  near(list[1].value, 1, 0.03);     /* a crest between particles, and what time steps lose */
+  near(list[2].value, 2 / pi, 0.1); /* 2 e - e, and what the lattice is late */
+  double expected = 0;              /* four particles, below x = 0.1 */
+  for (int k = 0; k < 4; k++) expected += cos(2 * pi * 0.025 * (k + 0.5)) / 4;
+  near(list[3].value, expected, 1e-5);
+  near(list[4].value, 0, 1e-9);
+  snprintf(path, sizeof path, "%s/compare_0.csv", w.directory);
+  FILE *table = fopen(path, "r");
+  assert_non_null(table);
+  fclose(table);
+  sph_case_compare_free(list, n);
+  end_wave(&w);
+}
+
+static void refused(const char *comparison, const char *part)
+{
+  char text[2000];
+  sph_error error = {0};
+  sph_comparison *list;
+  int n;
+  snprintf(text, sizeof text, "%s%s", WAVE, comparison);
+  wave_run w = run_wave(text);
+  assert_true(sph_case_compare(w.c, w.sim, w.directory, &list, &n, &error) < 0);
+  if (!strstr(error.text, part)) fail_msg("found '%s', expected '%s'", error.text, part);
+  end_wave(&w);
+}
+
+static void what_cannot_be_compared_is_told(void **state)
+{
+  (void)state;
+  refused("  - {name: v, quantity: velocity, at: [0.1], " REFERENCE "0}}}\n",
+          "at: there is no snapshot at t = 0.1 s, the nearest is at 0.0833333 s; see output: "
+          "snapshots");
+  refused("  - {name: v, quantity: kinetic, at: [0.1], reference: {value: 0}}\n",
+          "at: belongs to solutions in space");
+  refused("  - {name: v, quantity: colour, " REFERENCE "0}}}\n", "no such field");
+  refused("  - {name: v, quantity: sound_speed, " REFERENCE "0}}}\n",
+          "a wave has density, velocity, pressure");
+  refused("  - {name: v, quantity: velocity, norm: mean, " REFERENCE "0}}}\n",
+          "solutions in space know rms, l1, max");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -272,6 +378,8 @@ int main(void)
       cmocka_unit_test(the_arrival_is_the_first_passage),
       cmocka_unit_test(weights_count),
       cmocka_unit_test(files_are_read_and_scaled),
+      cmocka_unit_test(fields_are_compared_at_several_times),
+      cmocka_unit_test(what_cannot_be_compared_is_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
