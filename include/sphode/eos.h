@@ -26,7 +26,7 @@ struct sph_eos {
   int thermal;         /* 1: p depends on the internal energy u, which is then integrated */
   /* Called from several threads at once, on different particles: read ctx, do not write to it.
    * p[n] [Pa] and c[n] [m/s] of rho[n] [kg/m^3] > 0 and u[n] [J/kg] (u is NULL unless thermal).
-   * c = NaN (or infinite) says that there is no such state: the step is then tried again, smaller. */
+   * c = NaN (or infinite) says that there is no such state: the step is tried again, smaller. */
   void (*pressure)(const sph_eos *eos, long n, const double *rho, const double *u, double *p,
                    double *c);
   /* rho [kg/m^3] at pressure p [Pa] for internal energy u [J/kg] (not read unless thermal); NaN or

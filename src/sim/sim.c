@@ -36,8 +36,8 @@ static void set_kernel(sph_sim *sim, const sph_sim_def *def)
     sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "kernel \"%s\"; known: %s", name, known);
 }
 
-/* Stability limits S are measured with Wendland C2.  The fastest waves of a lattice go as 1/sigma_k,
- * the deviation of the kernel: a narrower one needs a smaller step. */
+/* Stability limits S are measured with Wendland C2.  The fastest waves of a lattice go as
+ * 1/sigma_k, the deviation of the kernel: a narrower one needs a smaller step. */
 static double narrow(const sph_kernel *kernel, int dim)
 {
   return sph_kernel_deviation(kernel, dim) /

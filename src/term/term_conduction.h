@@ -3,8 +3,8 @@
  *
  *   du_i = sum_j m_j/(rho_i rho_j) 4 kappa_i kappa_j/(kappa_i + kappa_j) (T_i - T_j) F_ij
  *
- * The harmonic mean keeps the flux continuous where kappa jumps.  Keeps sum m u; heat flows from hot
- * to cold. */
+ * The harmonic mean keeps the flux continuous where kappa jumps.  Keeps sum m u; heat flows from
+ * hot to cold. */
 #ifndef SPH_TERM_CONDUCTION_H
 #define SPH_TERM_CONDUCTION_H
 #include "fluid_pair.h"

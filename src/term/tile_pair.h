@@ -1,4 +1,4 @@
-/* tile_pair.h -- pair terms that are registered at run time, tile by tile (sphode/term.h, sph_tile).
+/* tile_pair.h -- pair terms that are registered at run time, tile by tile (sph_tile).
  *
  * A tile is a block of targets times up to SPH_TILE_ROWS sources.  The built-in terms run fused
  * while it is filled; then each term that was registered adds to it; then its rows are summed, and

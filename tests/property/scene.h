@@ -14,7 +14,7 @@ typedef struct scene_def {
   int no_slip, tension;
   int fluids;  /* 1 or 2, side by side */
   int thermal; /* ideal gas, else Tait (and linear as the second) */
-  int laminar; /* fluids have viscosity, conductivity and (thermal) specific heat, walls a temperature */
+  int laminar; /* fluids have viscosity, conductivity, specific heat, walls a temperature */
   int outside; /* some particles are whole periods away from the box */
   unsigned long seed;
 } scene_def;
@@ -42,7 +42,8 @@ sph_sim *scene_sim(scene *s, scene_options options);
 void scene_write(const scene *s, sph_sim *sim);
 
 /* The rates that the library found, in the order of scene.o.particle: [n] each, 0 for walls; p of
- * walls too.  du: of the energy that is integrated; drho: 0 where density is summed.  To be freed by scene_rates_free. */
+ * walls too.  du: of the energy that is integrated; drho: 0 where density is summed.
+ * To be freed by scene_rates_free. */
 typedef struct scene_rates {
   long n;
   double *dx[3], *a[3], *drho, *du, *p, *c, *rho;

@@ -18,8 +18,8 @@ static const double delta = 0.15, alpha = 0.3, beta = 0.7;
 
 /* ---- built-in terms again, as a user writes them ---- */
 
-/* c2: drho_i = rho_i sum V_j v.grad W;  a_i = - sum m_j (p_i + p_j)/(rho_i rho_j) grad W; heating by
- * compression of an ideal gas. */
+/* c2: drho_i = rho_i sum V_j v.grad W;  a_i = - sum m_j (p_i + p_j)/(rho_i rho_j) grad W; heating
+ * by compression of an ideal gas. */
 static void water(const sph_term *term, const sph_tile *t)
 {
   const double *rho_i = t->i[0], *rho_j = t->j[0], *p_i = t->i[1], *p_j = t->j[1];
