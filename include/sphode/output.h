@@ -34,6 +34,7 @@ typedef struct sph_output {
 /* ---- snapshots -------------------------------------------------------------------------------
  * directory/snapshot_0000.hdf, ...: HDF5, one file a frame; the directory is made.
  *   /Header /PartType0 (fluids, group after group) /PartType1 (walls): as GADGET's; SI units
+ *              (coordinates inside the box in periodic directions)
  *   /VTKHDF    the fluids for ParaView: hard links to the data of /PartType0
  *   /Groups    names and kinds; the dataset "Group" of a particle counts them from 0
  *   /Code /Parameters /Units   where the numbers come from

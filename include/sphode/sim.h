@@ -61,6 +61,9 @@ SPH_API double sph_sim_time(const sph_sim *sim); /* of the state shown [s] */
 SPH_API int sph_sim_dim(const sph_sim *sim);
 SPH_API double sph_sim_dx(const sph_sim *sim);
 SPH_API double sph_sim_h(const sph_sim *sim);
+/* Is direction d periodic?  Then from origin over length [m] (NULL: not wanted).  Positions in the
+ * state may lie whole lengths outside. */
+SPH_API int sph_sim_periodic(const sph_sim *sim, int d, double *origin, double *length);
 SPH_API const char *sph_sim_kernel(const sph_sim *sim);
 SPH_API const char *sph_sim_isa(const sph_sim *sim);
 SPH_API const char *sph_sim_integrator(const sph_sim *sim);

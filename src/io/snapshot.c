@@ -66,6 +66,15 @@ static void elastic(const sph_group *group, double *to, long n)
     to[i] = eos && eos->elastic_energy && rho ? eos->elastic_energy(eos, rho[i]) : 0;
 }
 
+/* Into the box of direction d, where that is periodic: what looks at a snapshot knows no box. */
+static void wrap(const writer *w, double *x, long n, int stride, int d)
+{
+  double origin, length;
+  if (!sph_sim_periodic(w->sim, d, &origin, &length)) return;
+  for (long i = 0; i < n; i++)
+    x[i * stride + d] -= length * floor((x[i * stride + d] - origin) / length);
+}
+
 /* The field of all groups of a part into w->buffer, [n] or [n][3]; 0 where no group has it. */
 static int gather(writer *w, int part, const sph_field_info *field)
 {
@@ -78,6 +87,7 @@ static int gather(writer *w, int part, const sph_field_info *field)
     for (int d = 0; d < components; d++) {
       const double *from = sph_group_read(group, field->name, d);
       for (long i = 0; from && i < n; i++) to[i * stride + d] = from[i];
+      if (from && !strcmp(field->name, "position")) wrap(w, to, n, stride, d);
       found |= from != NULL;
       if (!from && part == SPH_FLUIDS && !strcmp(field->name, "energy")) {
         elastic(group, to, n);
@@ -278,6 +288,12 @@ static void write_provenance(writer *w, const char *case_text, const char *comma
   sph_h5_string(h5, parameters, "InstructionSet", sph_sim_isa(w->sim));
   sph_h5_real(h5, parameters, "h", 0, &h);
   sph_h5_real(h5, parameters, "dx", 0, &dx);
+  int periodic[3] = {0};
+  double origin[3] = {0}, length[3] = {0};
+  for (int d = 0; d < 3; d++) periodic[d] = sph_sim_periodic(w->sim, d, &origin[d], &length[d]);
+  sph_h5_integer(h5, parameters, "Periodic", 3, periodic);
+  sph_h5_real(h5, parameters, "BoxOrigin", 3, origin);
+  sph_h5_real(h5, parameters, "BoxLength", 3, length);
   if (case_text) sph_h5_text(h5, parameters, "Case", case_text);
   if (parameters >= 0) H5Gclose(parameters);
   hid_t units = sph_h5_group(h5, w->file, "Units");

@@ -202,6 +202,14 @@ double sph_sim_h(const sph_sim *sim) { return sim ? sim->h : 0; }
 int sph_sim_threads(const sph_sim *sim) { return sim ? sim->threads : 0; }
 long sph_sim_revision(const sph_sim *sim) { return sim ? sim->revision : 0; }
 
+int sph_sim_periodic(const sph_sim *sim, int d, double *origin, double *length)
+{
+  if (!sim || d < 0 || d >= sim->dim || !sim->periodic[d]) return 0;
+  if (origin) *origin = sim->origin[d];
+  if (length) *length = sim->length[d];
+  return 1;
+}
+
 const char *sph_sim_kernel(const sph_sim *sim)
 {
   return sim && sim->kernel ? sph_kernel_name(sim->kernel) : "";

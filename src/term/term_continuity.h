@@ -6,8 +6,8 @@
  *
  * Exact time derivative of the summation density (C1); better across jumps of density (C2).  The
  * sum without its factor also gives the heating by compression, du_i = p_i/rho_i^2 d rho_i/dt:
- * partner of the pressure force of the same row, so that sum m (v^2/2 + u) is conserved and the entropy of
- * each particle too. */
+ * partner of the pressure force of the same row, so that sum m (v^2/2 + u) is conserved and the
+ * entropy of each particle too. */
 #ifndef SPH_TERM_CONTINUITY_H
 #define SPH_TERM_CONTINUITY_H
 #include "fluid_pair.h"

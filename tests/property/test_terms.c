@@ -1,6 +1,6 @@
 /* Every term beyond those of test_rhs.c against the independent brute force in long double, on
- * random states with and without walls: rows of density, viscosities, conduction, XSPH, diffusion, summed
- * densities, every energy. */
+ * random states with and without walls: rows of density, viscosities, conduction, XSPH, diffusion,
+ * summed densities, every energy. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
