@@ -2,10 +2,17 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
+#include <unistd.h>
 
+#include "csv.h"
+#include "memory.h"
+#include "snapshot.h"
 #include "sphode.h"
 
 typedef struct record {
@@ -136,12 +143,80 @@ static void silent_terms(void **state)
   sph_sim_free(sim);
 }
 
+static int ageing(const sph_term *term, const sph_particles *s)
+{
+  (void)term;
+  for (long i = 0; i < s->n; i++) s->ds[i] += 1;
+  return SPH_OK;
+}
+
+static const char *at(const char *folder, const char *file)
+{
+  static char path[200];
+  snprintf(path, sizeof path, "%s/%s", folder, file);
+  return path;
+}
+
+static void near(double value, double right, double tolerance)
+{
+  assert_true(fabs(value - right) <= tolerance); /* NaN fails */
+}
+
+/* A gas that drifts through a periodic box: snapshots have it inside, at the places it has moved
+ * to; and its scalar with its unit, in the snapshot and in the series. */
+static void periodic_and_scalars(void **state)
+{
+  const double L = 1, dx = 0.05, v0 = 0.7;
+  char folder[] = "/tmp/sphode-outputs-XXXXXX";
+  (void)state;
+  assert_non_null(mkdtemp(folder));
+  sph_sim *sim = sph_sim_create(
+      &(sph_sim_def){.dim = 1, .dx = dx, .periodic = {1}, .origin = {-0.3}, .length = {L}});
+  sph_group *gas = sph_group_box(sim, "gas", (double[]){-0.3}, (double[]){L - 0.3}, 1);
+  sph_group_set_eos(gas, sph_eos_linear(1, 10, -INFINITY));
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, (sph_term){.name = "age",
+                                   .body = ageing,
+                                   .scalar = {.name = "age", .unit = "s", .scale = 1}});
+  double *v = sph_group_write(gas, "velocity", 0);
+  for (long i = 0; v && i < 20; i++) v[i] = v0;
+  sph_sim_add_output(sim, sph_output_hdf5(folder, 3));
+  sph_sim_add_output(sim, sph_output_series(folder, 3, NULL, 0));
+  assert_int_equal(sph_sim_run(sim, 3), SPH_OK);
+  sph_snapshot s;
+  sph_error error = {0};
+  assert_int_equal(sph_snapshot_read(at(folder, "snapshot_0001.hdf"), "age", &s, &error), SPH_OK);
+  assert_string_equal(s.unit, "s");
+  for (long i = 0; i < 20; i++) {
+    double x = -0.3 + dx * ((double)i + 0.5) + 3 * v0;
+    assert_true(s.x[SPH_FLUIDS][3 * i] >= -0.3 && s.x[SPH_FLUIDS][3 * i] < L - 0.3);
+    near(s.x[SPH_FLUIDS][3 * i], x - L * floor((x + 0.3) / L), 1e-9);
+    near(s.value[SPH_FLUIDS][i], 3, 1e-9);
+    near(sph_group_read(gas, "position", 0)[i], x, 1e-9);
+  }
+  sph_snapshot_read_free(&s);
+  sph_sim_free(sim);
+  double *mean = NULL;
+  long n = 0;
+  char title[128];
+  assert_int_equal(sph_csv_read(at(folder, "series.csv"), "age_mean", 0, &mean, &n, title, &error),
+                   SPH_OK);
+  assert_int_equal(n, 2);
+  near(mean[1], 3, 1e-9);
+  sph_memory_free(mean);
+  static const char *const files[] = {"snapshot_0000.hdf", "snapshot_0001.hdf",
+                                      "snapshot.hdf.series", "series.csv"};
+  for (int k = 0; k < 4; k++) assert_int_equal(unlink(at(folder, files[k])), 0);
+  assert_int_equal(rmdir(folder), 0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(frames_between_runs),
                                      cmocka_unit_test(moved_by_hand),
                                      cmocka_unit_test(gas_between_walls),
                                      cmocka_unit_test(gas_hits_a_wall),
-                                     cmocka_unit_test(silent_terms)};
+                                     cmocka_unit_test(silent_terms),
+                                     cmocka_unit_test(periodic_and_scalars)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
