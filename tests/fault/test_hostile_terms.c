@@ -221,7 +221,8 @@ static void temperatures(void **state)
   s = gas();
   sph_group_set_temperature(s.water, T);
   assert_refused(s, SPH_ERR_ARGUMENT,
-                 "group water: equation of state ideal-gas has no temperature: set eos.c_v");
+                 "group water: equation of state ideal-gas has no temperature: set its specific "
+                 "heat, eos.c_v");
   s = gas();
   sph_group_set_temperature(s.water, NULL);
   assert_refused(s, SPH_ERR_ARGUMENT,
