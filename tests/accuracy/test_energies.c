@@ -1,7 +1,7 @@
-/* The same flow of a gas with u, total energy, entropy or temperature integrated: the equations are
- * the same for exact time integration, so the results differ by its error, which falls with the order
- * of the scheme.  A standing wave of a tenth of the sound speed, with laminar viscosity and
- * conduction. */
+/* The same flow of a gas with u, total energy, entropy or temperature integrated: the equations
+ * are the same for exact time integration, so the results differ by its error, which falls with
+ * the order of the scheme.  A standing wave of a tenth of the sound speed, with laminar viscosity
+ * and conduction. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

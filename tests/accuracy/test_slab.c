@@ -1,6 +1,6 @@
-/* Heat: a slab between walls of given temperature ends at the straight line between them, in two media
- * at that of a constant flux; walls without temperature keep all heat; sources heat at their power,
- * whether a C function or an expression of a case file. */
+/* Heat: a slab between walls of given temperature ends at the straight line between them, in two
+ * media at that of a constant flux; walls without temperature keep all heat; sources heat at their
+ * power, whether a C function or an expression of a case file. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -86,8 +86,8 @@ static double steady(int dim, int n, double kappa2, double (*start)(double x), d
   return worst;
 }
 
-/* The mean of wall and fluid lies on the surface to first order.  Two media with kappa 1:10: 2e-3 by
- * the harmonic mean, 1.7e-2 by the arithmetic one (measured elsewhere). */
+/* The mean of wall and fluid lies on the surface to first order.  Two media with kappa 1:10: 2e-3
+ * by the harmonic mean, 1.7e-2 by the arithmetic one (measured elsewhere). */
 static void steady_slab(void **state)
 {
   (void)state;
@@ -175,8 +175,8 @@ static const char heated[] = "dimension: 2\n"
                              "7 W/kg*(t/(1 s))^2}\n"
                              "run: {end: 1 s}\n";
 
-/* The same expression in C and in a case file: the same heat in a run, and that of the integral over t
- * where nothing moves. */
+/* The same expression in C and in a case file: the same heat in a run, and that of the integral
+ * over t where nothing moves. */
 static void source_of_a_case(void **state)
 {
   (void)state;

@@ -27,8 +27,8 @@ static sph_sim *box(int dim, int calibrate, const char *method)
   return sim;
 }
 
-/* Without calibration the sum is that of V W over the lattice, 1 + 5.142341e-3 in 2D for Wendland C2
- * with h = 1.5 dx (computed elsewhere, in two ways). */
+/* Without calibration the sum is that of V W over the lattice, 1 + 5.142341e-3 in 2D for Wendland
+ * C2 with h = 1.5 dx (computed elsewhere, in two ways). */
 static void lattice(void **state)
 {
   (void)state;

@@ -1,10 +1,10 @@
-/* What viscosities and conduction amount to on a lattice: the answer of the right-hand side to a wave
- * f = sin kx, transverse or along x, over that of the continuum,
+/* What viscosities and conduction amount to on a lattice: the answer of the right-hand side to a
+ * wave f = sin kx, transverse or along x, over that of the continuum,
  *
  *   a = - nu k^2 v,   du/dt = - kappa k^2 T/rho,
  *
- * and the decay of a shear wave in a run, v = V sin kx exp(-nu k^2 t).  Artificial viscosities in units
- * of alpha h c:
+ * and the decay of a shear wave in a run, v = V sin kx exp(-nu k^2 t).  Artificial viscosities in
+ * units of alpha h c:
  *   1/(2 (d + 2)) on all pairs (Monaghan 2005), half of it on those that approach;
  *   (d + 1)/(2 d (d + 2)) integral of r W/h dV on all pairs with the signal velocity. */
 #include <setjmp.h>

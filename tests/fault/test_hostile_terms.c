@@ -1,5 +1,6 @@
-/* Bad values and combinations of the terms of density, viscosity, heat and own scalars, of energies and
- * temperatures: refused with a text that tells what was wrong and what would be right, word by word. */
+/* Bad values and combinations of the terms of density, viscosity, heat and own scalars, of
+ * energies and temperatures: refused with a text that tells what was wrong and what would be
+ * right, word by word. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

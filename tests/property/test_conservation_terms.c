@@ -1,6 +1,6 @@
-/* What the terms beyond those of test_conservation.c keep, whatever the state: rows of any phi and of
- * summed density, viscosities of signal, Morris and MCG, conduction, XSPH, Fourtakas' diffusion, and
- * every energy that can be integrated. */
+/* What the terms beyond those of test_conservation.c keep, whatever the state: rows of any phi and
+ * of summed density, viscosities of signal, Morris and MCG, conduction, XSPH, Fourtakas'
+ * diffusion, and every energy that can be integrated. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -118,8 +118,8 @@ static void angular_momentum(void **state)
 
 /* ---- energy ---- */
 
-/* Of every gas, sum m (v.a + du/dt) = 0, u that of any row, heated by any viscosity; of total energy
- * e = u + v^2/2, sum m de/dt = 0; of T, sum m (v.a + c_v dT/dt) = 0. */
+/* Of every gas, sum m (v.a + du/dt) = 0, u that of any row, heated by any viscosity; of total
+ * energy e = u + v^2/2, sum m de/dt = 0; of T, sum m (v.a + c_v dT/dt) = 0. */
 static void energy_of_gases(void **state)
 {
   (void)state;
@@ -214,8 +214,8 @@ static void entropy(void **state)
   }
 }
 
-/* Heat flows from hot to cold: sum m du = 0, the hottest cools, the coldest warms, and sum m (du/dt)/T
- * > 0; in liquids and gases, one or two of different conductivity. */
+/* Heat flows from hot to cold: sum m du = 0, the hottest cools, the coldest warms, and sum m
+ * (du/dt)/T > 0; in liquids and gases, one or two of different conductivity. */
 static void conduction(void **state)
 {
   (void)state;
@@ -339,9 +339,9 @@ static double diffused(scene *s, enum oracle_delta model, scene_rates *r)
   return (double)(fabsl(mass.sum) / mass.size);
 }
 
-/* Fourtakas' diffusion is Molteni's without gravity.  With it, sum V D = 0 where rho^H_ij = -rho^H_ji,
- * which is so for gamma = 1 only; for gamma = 7 the pair keeps rho^H_ij + rho^H_ji
- * = rho0 (1/gamma)(1/gamma - 1) x^2 + O(x^4). */
+/* Fourtakas' diffusion is Molteni's without gravity.  With it, sum V D = 0 where rho^H_ij =
+ * -rho^H_ji, which is so for gamma = 1 only; for gamma = 7 the pair keeps rho^H_ij + rho^H_ji =
+ * rho0 (1/gamma)(1/gamma - 1) x^2 + O(x^4). */
 static void fourtakas(void **state)
 {
   (void)state;
@@ -365,8 +365,8 @@ static void fourtakas(void **state)
   }
 }
 
-/* The largest |D| at the surface, inside and at the (open) bottom of a column of water, H = 1 m, at rest
- * from its exact start; c0^2 = 40 g H. */
+/* The largest |D| at the surface, inside and at the (open) bottom of a column of water, H = 1 m,
+ * at rest from its exact start; c0^2 = 40 g H. */
 typedef struct column {
   double surface, inside, bottom;
 } column;
@@ -396,9 +396,10 @@ static column column_with(const char *model)
   return c;
 }
 
-/* At an edge Molteni's diffusion evens out the column's gradient, rho g/c^2.  Fourtakas' sees what it
- * differs by from rho0 g/c0^2: nothing at the surface, and (rho/rho0)^(gamma - 2) - 1 of the former below, 0.124
- * here (52 of 410, computed elsewhere); with the wrong sign of rho^H it is 2 - that. */
+/* At an edge Molteni's diffusion evens out the column's gradient, rho g/c^2.  Fourtakas' sees what
+ * it differs by from rho0 g/c0^2: nothing at the surface, and (rho/rho0)^(gamma - 2) - 1 of the
+ * former below, 0.124 here (52 of 410, computed elsewhere); with the wrong sign of rho^H it is 2 -
+ * that. */
 static void columns(void **state)
 {
   (void)state;
