@@ -357,11 +357,13 @@ static int check_forms(sph_case *c)
   if (!row || !other) return SPH_OK;
   for (int k = 0; k < 3; k++)
     if (!strcmp(row, partner[k][0]) && !strcmp(other->text, partner[k][1])) return SPH_OK;
-  int given = !one || !other->origin || strcmp(other->origin, "default"); /* else continuity's */
-  return FAIL(given ? other : one, 0,
-              "form: found pressure %s with %s%s, which do not conserve energy; right are "
-              "c2 with c2, s with c1 or summation, phi with phi",
-              other->text, summation ? "summation" : "continuity ", summation ? "" : row);
+  int given = !other->origin || strcmp(other->origin, "default"); /* else the other end's */
+  const sph_case_node *blamed = given ? other : one ? one : summation;
+  return sph_case_schema_fail(c, c->error, blamed, blamed != summation, 0,
+                              "form: found pressure %s with %s%s, which do not conserve energy; "
+                              "right are c2 with c2, s with c1 or summation, phi with phi",
+                              other->text, summation ? "summation" : "continuity ",
+                              summation ? "" : row);
 }
 
 int sph_case_check(sph_case *c)

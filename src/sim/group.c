@@ -83,6 +83,12 @@ void sph_group_set_boundary(sph_group *group, sph_boundary boundary)
   if (kept && (!boundary.name || !sph_boundary_formula(boundary.name)))
     kept = !sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s: boundary \"%s\"; known: %s",
                          group->name, boundary.name ? boundary.name : "", sph_boundary_name(0));
+  if (kept && !(boundary.temperature >= 0 && boundary.temperature < INFINITY))
+    kept =
+        !sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
+                      "group %s: temperature of the boundary %g K; right is > 0 and finite, or 0: "
+                      "adiabatic",
+                      group->name, boundary.temperature);
   if (!kept) {
     if (boundary.free) boundary.free(boundary.ctx);
     return;

@@ -127,7 +127,8 @@ void sph_group_set_temperature(sph_group *group, const double *T)
   if (!ready(group, "temperature")) return;
   if (!T || !(group->eos.c_v > 0)) {
     sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
-                 T ? "group %s: equation of state %s has no temperature: set eos.c_v"
+                 T ? "group %s: equation of state %s has no temperature: set its specific "
+                     "heat, eos.c_v"
                    : "group %s: no temperatures (NULL); equation of state %s",
                  group->name, group->eos.name);
     return;

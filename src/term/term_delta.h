@@ -9,7 +9,8 @@
  *
  * rho^H is the difference of density of a column at rest, B = rho0 c0^2/gamma, z up; its power is
  * summed as a series, exact to rounding as long as |x| < 0.1 within the support (checked).
- * sum V D = 0; Antuono's vanishes for a linear density, also at free surfaces.  A wall has no
+ * sum V D = 0, but for Fourtakas' with gravity and gamma > 1, where rho^H_ij + rho^H_ji = O(x^2);
+ * Antuono's vanishes for a linear density, also at free surfaces.  A wall has no
  * gradient of its own: it mirrors that of i.  The factor delta h c0 is applied to the sum
  * (sim_pairs.c). */
 #ifndef SPH_TERM_DELTA_H

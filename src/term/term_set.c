@@ -200,12 +200,12 @@ static int keep_scalar(sph_term_set *set, const sph_scalar *scalar)
 
 static int check_called(const sph_term_set *set, const sph_term *term, sph_error *error)
 {
+  if (!strcmp(term->name, "heat-source") && !term->body)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "term heat-source: no power function (NULL)");
   if (!term->body && !term->pair)
     return sph_error_set(error, SPH_ERR_ARGUMENT,
                          "term \"%s\": not a built-in one and without a body or pair function",
                          term->name);
-  if (!strcmp(term->name, "heat-source") && !term->power && !term->ctx)
-    return sph_error_set(error, SPH_ERR_ARGUMENT, "term heat-source: no power function (NULL)");
   if (is_finite(term, "omega", term->omega, error)) return SPH_ERR_ARGUMENT;
   if (term->reads && strlen(term->reads) >= SPH_TERM_READS_MAX)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: reads of more than %d characters",

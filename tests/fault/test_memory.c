@@ -42,10 +42,72 @@ static int frame(void *ctx, sph_sim *sim, sph_error *error)
   return SPH_OK;
 }
 
+/* Decay of a scalar, and its diffusion. */
+static int decay(const sph_term *term, const sph_particles *particles)
+{
+  (void)term;
+  for (long i = 0; i < particles->n; i++) particles->ds[i] -= particles->s[i];
+  return SPH_OK;
+}
+
+static void diffuse(const sph_term *term, const sph_tile *tile)
+{
+  (void)term;
+  for (long k = 0; k < tile->n; k++)
+    tile->ds[k] += 1e-3 * (tile->s_i[k] - tile->s_j[k]) * tile->V[k] * tile->F[k] *
+                   (tile->i[0][k] + tile->j[0][k]) / tile->i[0][k];
+}
+
+static double power(void *ctx, const double x[3], double t)
+{
+  (void)ctx;
+  return 1 + 0.1 * x[0] + t;
+}
+
+static double own_phi_calls;
+static void own_phi(const sph_term *term, const sph_particles *particles, double *phi)
+{
+  (void)term;
+  own_phi_calls++;
+  for (long i = 0; i < particles->n; i++) phi[i] = 1 + 0.01 * particles->x[0][i];
+}
+
+enum row { C2, SUMMED, PHI };
 typedef struct variant {
   const char *method, *neighbors;
   int periodic, thermal;
+  enum row row;
+  const char *energy; /* NULL: default; with conduction, laminar viscosity, a heat source */
+  int scalar;         /* a term with one, and with a pair function */
 } variant;
+
+static void add_row(sph_sim *sim, const variant *v)
+{
+  static const char *const form[] = {"c2", "s", "phi"};
+  sph_term continuity = sph_term_continuity_phi(0.5);
+  continuity.phi = own_phi;
+  sph_sim_add_term(sim, v->row == C2       ? sph_term_continuity()
+                        : v->row == SUMMED ? sph_term_summation(1)
+                                           : continuity);
+  sph_sim_add_term(sim, sph_term_pressure_form(form[v->row]));
+}
+
+static void add_heat(sph_sim *sim, sph_group *water, const variant *v)
+{
+  sph_group_set_viscosity(water, 1), sph_group_set_conductivity(water, 1);
+  sph_group_set_energy(water, v->energy);
+  sph_sim_add_term(sim, sph_term_viscosity_laminar(v->thermal ? "mcg" : "morris"));
+  sph_sim_add_term(sim, sph_term_viscosity_signal(0.5, 3));
+  sph_sim_add_term(sim, sph_term_conduction());
+  sph_sim_add_term(sim, sph_term_heat_source(power, NULL));
+  sph_sim_add_term(sim, sph_term_xsph(0.2));
+}
+
+static void add_scalar(sph_sim *sim)
+{
+  sph_sim_add_term(sim, (sph_term){"dye", .body = decay, .pair = diffuse, .reads = "density",
+                                   .scalar = {.name = "c", .scale = 1, .initial = 1}});
+}
 
 static int attach_and_run(sph_sim *sim, const variant *v)
 {
@@ -54,15 +116,18 @@ static int attach_and_run(sph_sim *sim, const variant *v)
   sph_group_add_layers(floor, (double[]){0, 0}, (double[]){1, 0.8}, v->periodic ? "x- x+ y+" : "y+",
                        1000);
   sph_eos eos = v->thermal ? sph_eos_ideal_gas(1.4) : sph_eos_tait(1000, 20, 7);
-  eos.ctx = &let_go[EOS], eos.free = count;
+  eos.ctx = &let_go[EOS], eos.free = count, eos.c_v = 700;
   sph_group_set_eos(water, eos);
   sph_boundary boundary = sph_boundary_adami_no_slip();
+  boundary.temperature = v->energy ? 0.2 : 0;
   boundary.motion = slide, boundary.ctx = &let_go[BOUNDARY], boundary.free = count;
   sph_group_set_boundary(floor, boundary);
-  sph_sim_add_term(sim, sph_term_continuity());
-  sph_sim_add_term(sim, sph_term_pressure());
+  add_row(sim, v);
+  if (v->energy) add_heat(sim, water, v);
+  if (v->scalar) add_scalar(sim);
   sph_sim_add_term(sim, sph_term_viscosity_artificial(0.1, 0));
-  if (!v->thermal) sph_sim_add_term(sim, sph_term_delta("antuono", 0.1));
+  if (!v->thermal && v->row != SUMMED)
+    sph_sim_add_term(sim, sph_term_delta(v->row == PHI ? "fourtakas" : "antuono", 0.1));
   if (v->thermal) sph_sim_add_term(sim, sph_term_conductivity_artificial(1));
   sph_sim_add_term(sim, sph_term_gravity((double[3]){0, -9.81, 0}));
   sph_sim_add_term(sim, (sph_term){"push", .body = push, .ctx = &let_go[TERM], .free = count});
@@ -70,7 +135,7 @@ static int attach_and_run(sph_sim *sim, const variant *v)
   sph_sim_add_output(sim, (sph_output){"nothing", 0.002, .frame = frame, .ctx = &let_go[OUTPUT],
                                        .free = count});
   long n = sph_group_count(water);
-  double *u = v->thermal ? sph_group_write(water, "energy", 0) : NULL;
+  double *u = v->thermal || v->energy ? sph_group_write(water, "energy", 0) : NULL;
   for (long i = 0; u && i < n; i++) u[i] = 100;
   if (!v->thermal) sph_group_set_hydrostatic(water, 1, 0.5, 9.81);
   int status = sph_sim_run(sim, 0.01);
@@ -115,19 +180,48 @@ static void each_allocation_fails(const variant *v)
   assert_true(all > 50);
 }
 
+static const variant variants[] = {
+    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, C2, NULL, 0},
+    {"leapfrog", "brute-force", 1, 0, C2, NULL, 0},
+    {"verlet", NULL, 1, 1, C2, NULL, 0},
+    {"leapfrog", NULL, 0, 0, SUMMED, "temperature", 1},
+    {"erk:bogacki-shampine-4-2-3", NULL, 1, 1, SUMMED, "entropy", 0},
+    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, PHI, "u", 1},
+    {"leapfrog", NULL, 0, 1, PHI, "total", 1},
+};
+enum { VARIANTS = sizeof variants / sizeof *variants };
+
 static void all(void **state)
 {
   (void)state;
-  static const variant variants[] = {
-      {"erk:bogacki-shampine-4-2-3", NULL, 0, 0},
-      {"leapfrog", "brute-force", 1, 0},
-      {"verlet", NULL, 1, 1},
-  };
-  for (int k = 0; k < 3; k++) each_allocation_fails(&variants[k]);
+  for (int k = 0; k < VARIANTS; k++) each_allocation_fails(&variants[k]);
+  assert_true(own_phi_calls > 0);
+}
+
+/* Once a simulation runs, the right-hand side takes no memory.  (Steps may, where lists grow.) */
+static void none_in_the_right_hand_side(void **state)
+{
+  (void)state;
+  for (int k = 0; k < VARIANTS; k++) {
+    const variant *v = &variants[k];
+    fail_at = 0;
+    sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2,
+                                                 .dx = 0.1,
+                                                 .threads = 2,
+                                                 .neighbors = v->neighbors,
+                                                 .periodic = {v->periodic},
+                                                 .length = {v->periodic}});
+    if (attach_and_run(sim, v) != SPH_OK) fail_msg("%s", sph_sim_error(sim));
+    long before = calls;
+    for (int q = 0; q < 10; q++) assert_int_equal(sph_sim_evaluate(sim), SPH_OK);
+    if (calls != before) fail_msg("variant %d: %ld allocations", k, calls - before);
+    sph_sim_free(sim);
+  }
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(all)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(all),
+                                     cmocka_unit_test(none_in_the_right_hand_side)};
   return cmocka_run_group_tests_name("out of memory", tests, NULL, NULL);
 }

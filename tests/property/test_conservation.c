@@ -11,21 +11,7 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "scene.h"
-
-/* A sum that must vanish, and what it is small against. */
-typedef struct balance {
-  real sum, size;
-} balance;
-
-static void add(balance *b, real x) { b->sum += x, b->size += fabsl(x); }
-
-static void assert_zero(const balance *b, double tolerance, const char *what)
-{
-  assert_true(b->size > 0); /* something was there to cancel */
-  if (fabsl(b->sum) <= tolerance * b->size) return;
-  fail_msg("%s: %Lg of %Lg", what, b->sum, b->size);
-}
+#include "balance.h"
 
 typedef struct terms {
   enum oracle_row row;
@@ -50,21 +36,6 @@ static scene_rates rates_with(scene *s, const terms *t)
   return rates;
 }
 
-/* Periodic boxes and free clouds of liquid and of gas: every kernel in every dimension. */
-enum { SCENES = 3 * ORACLE_KERNELS };
-static scene_def scene_number(int k, int thermal, int periodic)
-{
-  scene_def def = {.dim = 1 + k % 3,
-                   .kernel = k % ORACLE_KERNELS,
-                   .random = k / 6 % 2,
-                   .fluids = 1};
-  def.n = def.dim == 1 ? 60 : def.dim == 2 ? 16 : 8;
-  def.thermal = thermal;
-  def.seed = (unsigned long)(700 + k);
-  for (int d = 0; d < def.dim; d++) def.periodic[d] = periodic;
-  return def;
-}
-
 static const terms rows[] = {{.row = ORACLE_C1}, {.row = ORACLE_C2}};
 static const terms dissipative[] = {
     {.row = ORACLE_C1, .alpha = 1, .beta = 2, .conductivity = 1},
@@ -76,11 +47,7 @@ static const terms dissipative[] = {
 static void momentum_with(scene *s, const terms *t)
 {
   scene_rates r = rates_with(s, t);
-  for (int k = 0; k < s->o.dim; k++) {
-    balance force = {0, 0};
-    for (long i = 0; i < r.n; i++) add(&force, s->o.particle[i].m * r.a[k][i]);
-    assert_zero(&force, 1e-14, "sum m a");
-  }
+  assert_momentum(s, &r);
   scene_rates_free(&r);
 }
 
@@ -108,13 +75,7 @@ static void angular_momentum(void **state)
     scene_make(&s, &def);
     scene_rates r = rates_with(&s, &dissipative[k % 2]);
     for (int d = def.dim == 2 ? 2 : 0; d < 3; d++) {
-      int p = (d + 1) % 3, q = (d + 2) % 3;
-      balance torque = {0, 0};
-      for (long i = 0; i < r.n; i++) {
-        const oracle_particle *it = &s.o.particle[i];
-        add(&torque, it->m * it->x[p] * r.a[q][i]);
-        add(&torque, -it->m * it->x[q] * r.a[p][i]);
-      }
+      balance torque = torque_of(&s, &r, d);
       assert_zero(&torque, 1e-14, "sum m x cross a");
     }
     scene_rates_free(&r);
@@ -123,13 +84,6 @@ static void angular_momentum(void **state)
 }
 
 /* ---- energy ---- */
-
-static real power(const scene *s, const scene_rates *r, long i)
-{
-  real sum = 0;
-  for (int k = 0; k < s->o.dim; k++) sum += s->o.particle[i].v[k] * r->a[k][i];
-  return s->o.particle[i].m * sum;
-}
 
 /* sum m (v.a + du/dt) = 0: compression and its partner, viscosity and its heat, conduction. */
 static void energy_of_gases(void **state)
@@ -143,7 +97,7 @@ static void energy_of_gases(void **state)
       scene_rates r = rates_with(&s, t < 2 ? &rows[t] : &dissipative[t - 2]);
       balance energy = {0, 0};
       for (long i = 0; i < r.n; i++) {
-        add(&energy, power(&s, &r, i));
+        add(&energy, power_of(&s, &r, i));
         add(&energy, s.o.particle[i].m * r.du[i]);
       }
       assert_zero(&energy, 1e-14, "sum m (v.a + du/dt)");
@@ -166,7 +120,7 @@ static void energy_of_liquids(void **state)
       balance energy = {0, 0};
       for (long i = 0; i < r.n; i++) {
         const oracle_particle *it = &s.o.particle[i];
-        add(&energy, power(&s, &r, i));
+        add(&energy, power_of(&s, &r, i));
         add(&energy, it->m * r.p[i] / (it->rho * it->rho) * r.drho[i]);
       }
       assert_zero(&energy, 1e-14, "sum m (v.a + p/rho^2 drho/dt)");
@@ -191,7 +145,7 @@ static void viscous_heat(void **state)
       assert_true(r.du[i] >= 0);
       assert_true(r.drho[i] == 0);
       heated += r.du[i] > 0;
-      add(&energy, power(&s, &r, i));
+      add(&energy, power_of(&s, &r, i));
       add(&energy, s.o.particle[i].m * r.du[i]);
     }
     assert_in_range(heated, r.n / 2, r.n);

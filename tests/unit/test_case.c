@@ -361,6 +361,39 @@ static void jitter_moves_particles_off_their_lattice(void **state)
   assert_true(fabs(together / N) < 4 * one * one / sqrt(N));
 }
 
+static void heat_that_cannot_be(void **state)
+{
+  static const char text[] = "dimension: 1\nspacing: 0.1\ngroups:\n  water:\n    kind: fluid\n"
+                             "    density: 1000\n    eos: {%s}\n%s\n"
+                             "    shapes: [{box: {lower: [0], upper: [1]}}]\n"
+                             "terms: {continuity: , pressure: %s}\nrun: {end: 1}\n";
+  static const char *const wrong[][4] = {
+      {"tait: {sound_speed: 10}", "    initial: {temperature: 300}", "",
+       "bad.yml:8:15: group water: equation of state tait has no temperature: set its specific "
+       "heat"},
+      {"tait: {sound_speed: 10}", "", ", heat-source: {power: t/(1 s)*1 W/kg}",
+       "heat-source heats an energy, which water has not"},
+      {"tait: {sound_speed: 10}", "    energy: total", "",
+       "group water: the pressure of equation of state tait does not depend on an energy"},
+      {"ideal-gas: {gamma: 1.4}", "    energy: temperature\n    initial: {energy: 1}", "",
+       "group water: energy temperature needs a specific heat"}};
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    char whole[500];
+    sph_error error = {0};
+    snprintf(whole, sizeof whole, text, wrong[k][0], wrong[k][1], wrong[k][2]);
+    sph_case *c = sph_case_read_text("bad.yml", whole, strlen(whole), 0, NULL, &error);
+    if (!c) fail_msg("%s", error.text);
+    sph_sim *sim = sph_case_build(c, 1, &error); /* the others when they are used */
+    assert_true((sim == NULL) == (k == 0));
+    if (sim) assert_int_equal(sph_sim_evaluate(sim), SPH_ERR_ARGUMENT);
+    const char *found = sim ? sph_sim_error(sim) : error.text;
+    if (strncmp(found, wrong[k][3], strlen(wrong[k][3])) != 0) fail_msg("found %s", found);
+    sph_sim_free(sim);
+    sph_case_free(c);
+  }
+}
+
 /* ---- broken files */
 
 static void check_broken(const char *directory, const char *file)
@@ -472,6 +505,7 @@ int main(void)
       cmocka_unit_test(jitter_moves_particles_off_their_lattice),
       cmocka_unit_test(materials_are_what_the_file_says),
       cmocka_unit_test(a_preset_without_that_sound_speed),
+      cmocka_unit_test(heat_that_cannot_be),
       cmocka_unit_test(broken_files_say_what_is_wrong),
       cmocka_unit_test(bombs_and_garbage_are_refused_at_once),
       cmocka_unit_test(a_file_that_is_not_there),

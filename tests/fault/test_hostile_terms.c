@@ -1,0 +1,373 @@
+/* Bad values and combinations of the terms of density, viscosity, heat and own scalars, of
+ * energies and temperatures: refused with a text that tells what was wrong and what would be
+ * right, word by word. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "sphode.h"
+
+/* What to spoil: a liquid or a gas without terms, c_v unknown, no energy chosen. */
+typedef struct subject {
+  sph_sim *sim;
+  sph_group *water, *floor;
+} subject;
+
+static subject make(sph_eos eos)
+{
+  subject s = {.sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 0.1})};
+  s.water = sph_group_box(s.sim, "water", (double[]){0, 0}, (double[]){1, 0.5}, 1000);
+  s.floor = sph_group_create(s.sim, "floor", "wall");
+  sph_group_add_layers(s.floor, (double[]){0, 0}, (double[]){1, 0.8}, "y+", 1000);
+  sph_group_set_eos(s.water, eos);
+  sph_group_set_boundary(s.floor, sph_boundary_adami());
+  double *u = sph_group_write(s.water, "energy", 0);
+  for (long i = 0; u && i < sph_group_count(s.water); i++) u[i] = 100;
+  assert_string_equal(sph_sim_error(s.sim), "");
+  return s;
+}
+
+static subject liquid(void) { return make(sph_eos_tait(1000, 20, 7)); }
+static subject gas(void) { return make(sph_eos_ideal_gas(1.4)); }
+
+/* Refused where it is set or, at the latest, when it is used; then nothing works any more. */
+static void assert_refused(subject s, int status, const char *text)
+{
+  int found = sph_sim_evaluate(s.sim);
+  if (strcmp(sph_sim_error(s.sim), text) != 0)
+    fail_msg("\"%s\"\n  instead of\n\"%s\"", sph_sim_error(s.sim), text);
+  assert_int_equal(found, status);
+  sph_sim_add_term(s.sim, (sph_term){.name = "nonsense"});
+  sph_group_set_energy(s.water, "nonsense");
+  assert_int_equal(sph_sim_run(s.sim, 1), status);
+  assert_string_equal(sph_sim_error(s.sim), text);
+  sph_sim_free(s.sim);
+}
+
+static void refused(subject s, sph_term term, const char *text)
+{
+  sph_sim_add_term(s.sim, term);
+  assert_refused(s, SPH_ERR_ARGUMENT, text);
+}
+
+/* ---- parameters ---- */
+
+static void parameters(void **state)
+{
+  (void)state;
+  static const double bad[] = {NAN, INFINITY, -INFINITY, -1};
+  static const char *const name[] = {"nan", "inf", "-inf", "-1"};
+  char text[200];
+  for (int k = 0; k < 4; k++) {
+    snprintf(text, sizeof text, "term viscosity-signal: alpha = %s; right is a finite number >= 0",
+             name[k]);
+    refused(liquid(), sph_term_viscosity_signal(bad[k], 3), text);
+    snprintf(text, sizeof text, "term viscosity-signal: beta = %s; right is a finite number >= 0",
+             name[k]);
+    refused(liquid(), sph_term_viscosity_signal(1, bad[k]), text);
+    snprintf(text, sizeof text, "term xsph: epsilon = %s; right is 0 to 1, usually up to 0.5",
+             name[k]);
+    refused(liquid(), sph_term_xsph(bad[k]), text);
+    snprintf(text, sizeof text, "term continuity: exponent = %s is not finite", name[k]);
+    if (k < 3) refused(liquid(), sph_term_continuity_phi(bad[k]), text);
+    snprintf(text, sizeof text, "term delta: delta = %s; right is a finite number >= 0", name[k]);
+    refused(liquid(), sph_term_delta("fourtakas", bad[k]), text);
+  }
+  refused(liquid(), sph_term_xsph(2), "term xsph: epsilon = 2; right is 0 to 1, usually up to 0.5");
+  refused(liquid(), sph_term_viscosity_laminar("newton"),
+          "term viscosity-laminar: form \"newton\"; known: morris, mcg");
+  refused(liquid(), sph_term_continuity_form("sum"),
+          "term continuity: form \"sum\"; known: c2, c1, phi");
+  refused(liquid(), sph_term_pressure_form("c1"), "term pressure: form \"c1\"; known: c2, s, phi");
+  refused(liquid(), sph_term_heat_source(NULL, NULL), "term heat-source: no power function (NULL)");
+  int anything;
+  refused(liquid(), sph_term_heat_source(NULL, &anything),
+          "term heat-source: no power function (NULL)");
+}
+
+/* ---- combinations ---- */
+
+static void refused_pair(subject s, sph_term first, sph_term second, const char *text)
+{
+  sph_sim_add_term(s.sim, first);
+  refused(s, second, text);
+}
+
+static void twice(void **state)
+{
+  (void)state;
+  refused_pair(liquid(), sph_term_summation(1), sph_term_summation(0),
+               "term summation: density is already that of summation");
+  refused_pair(liquid(), sph_term_continuity(), sph_term_summation(0),
+               "term summation: density is already that of continuity");
+  refused_pair(liquid(), sph_term_summation(1), sph_term_continuity(),
+               "term continuity: density is summed already");
+  refused_pair(liquid(), sph_term_viscosity_laminar("mcg"), sph_term_viscosity_laminar("morris"),
+               "term viscosity-laminar: added twice");
+  refused_pair(liquid(), sph_term_xsph(0.5), sph_term_xsph(0.5), "term xsph: added twice");
+  refused_pair(gas(), sph_term_conduction(), sph_term_conduction(), "term conduction: added twice");
+  refused_pair(liquid(), sph_term_viscosity_signal(1, 3), sph_term_viscosity_signal(1, 3),
+               "term viscosity-signal: added twice");
+  refused_pair(liquid(), sph_term_delta("fourtakas", 0.1), sph_term_delta("molteni", 0.1),
+               "term delta: added twice");
+}
+
+static void rows(void **state)
+{
+  (void)state;
+  static const char mixed[] = "continuity and pressure of different rows do not conserve energy: "
+                              "use c2 with c2, c1 or summation with s, phi with phi";
+  refused_pair(liquid(), sph_term_summation(1), sph_term_pressure(), mixed);
+  refused_pair(liquid(), sph_term_summation(1), sph_term_pressure_form("phi"), mixed);
+  refused_pair(liquid(), sph_term_continuity_phi(0.5), sph_term_pressure(), mixed);
+  refused_pair(liquid(), sph_term_continuity_phi(0), sph_term_pressure_form("s"), mixed);
+  refused_pair(liquid(), sph_term_continuity_form("c1"), sph_term_pressure_form("phi"), mixed);
+  refused(liquid(), sph_term_pressure_form("phi"),
+          "term pressure: form phi takes phi from continuity of form phi");
+  refused_pair(liquid(), sph_term_summation(1), sph_term_delta("molteni", 0.1),
+               "term delta diffuses a density that is integrated; summation has none: leave one of "
+               "them out");
+}
+
+/* ---- terms that would do nothing, or nothing right ---- */
+
+static double power(void *ctx, const double x[3], double t) { return (void)ctx, (void)x, t; }
+
+static void unfit(void **state)
+{
+  (void)state;
+  sph_eos eos = sph_eos_ideal_gas(1.4);
+  eos.c_v = 718;
+  refused(gas(), sph_term_delta("fourtakas", 0.1),
+          "delta needs a reference sound speed, which equation of state ideal-gas of water has not "
+          "(c0 = 0): leave the term out or set eos.c0");
+  subject soft = make(sph_eos_linear(1000, 3, -INFINITY));
+  refused_pair(
+      soft, sph_term_gravity((double[3]){0, -9.81, 0}), sph_term_delta("fourtakas", 0.1),
+      "delta fourtakas needs a liquid like tait, linear or murnaghan whose density differs "
+      "little over a support; water with equation of state linear has gamma g H/c0^2 = "
+      "0.327, right is below 0.1");
+  refused(gas(), sph_term_conduction(),
+          "conduction needs a temperature, which water has not: give it a specific heat (eos.c_v)");
+  refused(liquid(), sph_term_conduction(),
+          "conduction needs a temperature, which water has not: give it an energy "
+          "(sph_group_set_energy) and a specific heat (eos.c_v)");
+  refused(make(eos), sph_term_conduction(),
+          "conduction: no fluid has a conductivity: sph_group_set_conductivity");
+  refused(liquid(), sph_term_viscosity_laminar(NULL),
+          "viscosity-laminar: no fluid has a viscosity: sph_group_set_viscosity");
+  refused(
+      liquid(), sph_term_conductivity_artificial(1),
+      "conductivity-artificial acts on internal energy, which water with equation of state tait "
+      "has not: leave the term out");
+  refused(liquid(), sph_term_heat_source(power, NULL),
+          "heat-source heats an energy, which water has not: sph_group_set_energy");
+}
+
+/* ---- energies and temperatures ---- */
+
+static void refused_energy(subject s, int wall, const char *variable, const char *text)
+{
+  sph_group_set_energy(wall ? s.floor : s.water, variable);
+  assert_refused(s, SPH_ERR_ARGUMENT, text);
+}
+
+static void energies(void **state)
+{
+  (void)state;
+  refused_energy(gas(), 1, "u", "group floor is a wall: it integrates nothing");
+  refused_energy(gas(), 0, "enthalpy",
+                 "group water: energy \"enthalpy\"; known: u, total, entropy, temperature, none");
+  refused_energy(gas(), 0, NULL,
+                 "group water: energy \"\"; known: u, total, entropy, temperature, none");
+  refused_energy(liquid(), 0, "entropy",
+                 "group water: energy entropy needs an ideal gas, not equation of state tait");
+  refused_energy(
+      liquid(), 0, "total",
+      "group water: the pressure of equation of state tait does not depend on an energy; "
+      "right are u, temperature or none, not total");
+  refused_energy(gas(), 0, "none",
+                 "group water: equation of state ideal-gas needs an energy, not none");
+  for (int k = 0; k < 2; k++)
+    refused_energy(k ? gas() : liquid(), 0, "temperature",
+                   "group water: energy temperature needs a specific heat: set eos.c_v");
+  subject s = gas(); /* one fluid with energy, one without */
+  sph_group *oil = sph_group_box(s.sim, "oil", (double[]){5, 5}, (double[]){6, 6}, 900);
+  sph_group_set_eos(oil, sph_eos_tait(900, 20, 7));
+  assert_refused(s, SPH_ERR_STATE,
+                 "groups water and oil: all fluids or none must have an energy "
+                 "(sph_group_set_energy)");
+  s = gas();
+  assert_int_equal(sph_sim_evaluate(s.sim), SPH_OK);
+  sph_group_set_energy(s.water, "u");
+  assert_refused(s, SPH_ERR_STATE, "group water: the energy is set before the run");
+}
+
+static void temperatures(void **state)
+{
+  (void)state;
+  double T[50];
+  sph_eos eos = sph_eos_ideal_gas(1.4);
+  for (int i = 0; i < 50; i++) T[i] = i == 7 ? -300 : 300;
+  subject s = liquid();
+  assert_int_equal(sph_group_count(s.water), 50);
+  sph_group_set_temperature(sph_group_create(s.sim, "oil", "fluid"), T);
+  assert_refused(s, SPH_ERR_STATE, "group oil: set its equation of state before its temperature");
+  s = gas();
+  sph_group_set_temperature(s.water, T);
+  assert_refused(s, SPH_ERR_ARGUMENT,
+                 "group water: equation of state ideal-gas has no temperature: set its specific "
+                 "heat, eos.c_v");
+  s = gas();
+  sph_group_set_temperature(s.water, NULL);
+  assert_refused(s, SPH_ERR_ARGUMENT,
+                 "group water: no temperatures (NULL); equation of state ideal-gas");
+  eos.c_v = 718;
+  s = make(eos);
+  sph_group_set_temperature(s.water, T);
+  assert_refused(
+      s, SPH_ERR_ARGUMENT,
+      "group water, particle 7: no state of equation of state ideal-gas has density 1000, "
+      "internal energy -215400");
+  T[7] = NAN;
+  s = make(eos);
+  sph_group_set_temperature(s.water, T);
+  assert_refused(s, SPH_ERR_ARGUMENT, "group water, particle 7: temperature nan K");
+  s = make(eos);
+  assert_int_equal(sph_sim_evaluate(s.sim), SPH_OK);
+  sph_group_set_temperature(s.water, T);
+  assert_refused(s, SPH_ERR_STATE, "group water: temperature is set before the run");
+  static const double bad[] = {NAN, -1, INFINITY};
+  static const char *const name[] = {"nan", "-1", "inf"};
+  for (int k = 0; k < 3; k++) {
+    char text[200];
+    sph_boundary boundary = sph_boundary_adami();
+    boundary.temperature = bad[k];
+    s = gas();
+    sph_group_set_boundary(s.floor, boundary);
+    snprintf(
+        text, sizeof text,
+        "group floor: temperature of the boundary %s K; right is > 0 and finite, or 0: adiabatic",
+        name[k]);
+    assert_refused(s, SPH_ERR_ARGUMENT, text);
+  }
+}
+
+/* ---- a user's own ---- */
+
+static int body(const sph_term *term, const sph_particles *particles)
+{
+  return (void)term, (void)particles, SPH_OK;
+}
+static void pair(const sph_term *term, const sph_tile *tile) { (void)term, (void)tile; }
+
+static sph_term dye(sph_scalar scalar)
+{
+  return (sph_term){.name = "dye", .body = body, .scalar = scalar};
+}
+
+static void scalars(void **state)
+{
+  (void)state;
+  static const char *const name[] = {
+      "", "a b", "\xc3\xa9", "c-1",
+      "abcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxyzabcdefghijkl"}; /* 64 */
+  char text[300];
+  for (int k = 0; k < 5; k++) {
+    snprintf(text, sizeof text, "term dye: scalar \"%s\"; right is 1 to 63 of A-Z a-z 0-9 _",
+             name[k]);
+    refused(liquid(), dye((sph_scalar){.name = name[k], .scale = 1}), text);
+  }
+  static const char *const taken[] = {"density", "energy", "temperature", "entropic_function",
+                                      "id"};
+  for (int k = 0; k < 4; k++) {
+    snprintf(text, sizeof text, "term dye: there is a field %s already; choose another name",
+             taken[k]);
+    refused(liquid(), dye((sph_scalar){.name = taken[k], .scale = 1}), text);
+  }
+  refused_pair(liquid(), dye((sph_scalar){.name = "c", .scale = 1}),
+               dye((sph_scalar){.name = "c", .scale = 1}),
+               "term dye: there is a field c already; choose another name");
+  static const double scale[] = {0, -1, NAN, INFINITY};
+  for (int k = 0; k < 4; k++) {
+    snprintf(text, sizeof text,
+             "term dye: scalar c: scale = %g, initial = 0; right is finite and scale > 0",
+             scale[k]);
+    refused(liquid(), dye((sph_scalar){.name = "c", .scale = scale[k]}), text);
+  }
+  refused(liquid(), dye((sph_scalar){.name = "c", .scale = 1, .initial = NAN}),
+          "term dye: scalar c: scale = 1, initial = nan; right is finite and scale > 0");
+  refused(liquid(), (sph_term){.name = "dye", .scalar = {.name = "c", .scale = 1}},
+          "term \"dye\": not a built-in one and without a body or pair function");
+}
+
+static void too_many(void **state)
+{
+  (void)state;
+  static const char *const name[] = {"a", "b", "c", "d", "e", "f", "g", "h"};
+  subject s = liquid();
+  for (int k = 0; k < 8; k++)
+    sph_sim_add_term(s.sim, dye((sph_scalar){.name = name[k], .scale = 1}));
+  assert_string_equal(sph_sim_error(s.sim), "");
+  refused(s, dye((sph_scalar){.name = "i", .scale = 1}), "term dye: more than 8 scalars");
+  s = liquid();
+  for (int k = 0; k < 32; k++) sph_sim_add_term(s.sim, dye((sph_scalar){0}));
+  assert_string_equal(sph_sim_error(s.sim), "");
+  refused(s, dye((sph_scalar){0}), "term dye: more than 32 terms with functions");
+}
+
+static void reads(void **state)
+{
+  (void)state;
+  static const char many[] = "density pressure sound_speed, density pressure sound_speed, density "
+                             "pressure sound_speed";
+  char longer[300] = {0};
+  memset(longer, 'a', 256);
+  refused(
+      liquid(), (sph_term){.name = "dye", .pair = pair, .reads = "density colour"},
+      "term dye reads \"colour\"; known: density, pressure, sound_speed, energy, temperature and "
+      "scalars of terms");
+  refused(liquid(), (sph_term){.name = "dye", .pair = pair, .reads = "energy"},
+          "term dye reads energy, which no fluid has");
+  refused(gas(), (sph_term){.name = "dye", .pair = pair, .reads = many},
+          "term dye reads more than 8 fields");
+  refused(gas(), (sph_term){.name = "dye", .pair = pair, .reads = longer},
+          "term dye: reads of more than 255 characters");
+}
+
+/* ---- NULL flows through, and after the start it is too late ---- */
+
+static void no_group(void **state)
+{
+  (void)state;
+  sph_group_set_energy(NULL, "u");
+  sph_group_set_temperature(NULL, NULL);
+  sph_sim_add_term(NULL, dye((sph_scalar){.name = "c", .scale = 1}));
+  assert_string_equal(sph_group_energy(NULL), "none");
+  assert_null(sph_group_field(NULL, 0));
+  assert_null(sph_term_name(-1));
+  assert_null(sph_term_formula("newton"));
+  assert_null(sph_term_formula(NULL));
+  for (int k = 0; sph_term_name(k); k++) assert_non_null(sph_term_formula(sph_term_name(k)));
+  subject s = liquid();
+  assert_int_equal(sph_sim_evaluate(s.sim), SPH_OK);
+  sph_sim_add_term(s.sim, sph_term_xsph(0.1));
+  assert_refused(s, SPH_ERR_STATE, "term xsph: terms are added before the run");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(parameters), cmocka_unit_test(twice),    cmocka_unit_test(rows),
+      cmocka_unit_test(unfit),      cmocka_unit_test(energies), cmocka_unit_test(temperatures),
+      cmocka_unit_test(scalars),    cmocka_unit_test(too_many), cmocka_unit_test(reads),
+      cmocka_unit_test(no_group),
+  };
+  return cmocka_run_group_tests_name("hostile terms", tests, NULL, NULL);
+}
