@@ -68,6 +68,7 @@ int main(int argc, char **argv)
   bench_neighbors();
   bench_rhs();
   bench_integration();
+  bench_tiles();
   bench_stability();
   return 0;
 }

@@ -56,32 +56,47 @@ typedef struct tile_rows {
   vec i[SPH_TILE_FIELDS][SPH_TILE_ROWS], j[SPH_TILE_FIELDS][SPH_TILE_ROWS];
 } tile_rows;
 
-BODY vec tile_field(int dim, unsigned terms, const vec *slot, const particle *a, int field)
+/* The fields of the targets: the same in all rows of a block. */
+BODY void tile_targets(int dim, const tile_constants *k, const double *record, long stride,
+                       tile_rows *rows)
 {
-  switch (field) {
-  case SPH_TILE_DENSITY: return a->rho;
-  case SPH_TILE_PRESSURE: return fluid_pressure(terms, a);
-  case SPH_TILE_SOUND_SPEED: return a->c;
-  case SPH_TILE_ENERGY: return a->u;
-  case SPH_TILE_TEMPERATURE: return a->T;
-  default: return slot[slot_scalar(dim) + field - SPH_TILE_SCALAR];
+  vec slot[SPH_PAIR_SLOTS];
+  for (int s = 0; s < k->slots; s++) slot[s] = v_gather(record + s, stride);
+  const particle i = fluid_particle(dim, k->fluid.terms, slot);
+  const vec field[] = {[SPH_TILE_DENSITY] = i.rho,
+                       [SPH_TILE_PRESSURE] = fluid_pressure(k->fluid.terms, &i),
+                       [SPH_TILE_SOUND_SPEED] = i.c,
+                       [SPH_TILE_ENERGY] = slot[slot_u(dim)],
+                       [SPH_TILE_TEMPERATURE] = slot[slot_T(dim)]};
+  for (int f = 0; f < SPH_TILE_FIELDS; f++) {
+    if (!(k->fields >> f & 1)) continue;
+    vec value = f < SPH_TILE_SCALAR ? field[f] : slot[slot_scalar(dim) + f - SPH_TILE_SCALAR];
+    for (int n = 0; n < SPH_TILE_ROWS; n++) rows->i[f][n] = value;
   }
 }
 
-/* The fields of the targets: the same in all rows of a block. */
-BODY void tile_targets(int dim, const tile_constants *k, const vec *slot_i, tile_rows *rows)
+/* The fields of source j, in row n; a wall mirrors scalars. */
+BODY void tile_source(int dim, unsigned terms, const tile_constants *k, const particle *j,
+                      const double *record, tile_rows *rows, int n)
 {
-  const particle i = fluid_particle(dim, k->fluid.terms, slot_i);
-  for (int f = 0; f < SPH_TILE_FIELDS; f++)
-    for (int n = 0; (k->fields >> f & 1) && n < SPH_TILE_ROWS; n++)
-      rows->i[f][n] = tile_field(dim, k->fluid.terms, slot_i, &i, f);
+  if (k->fields & 1u << SPH_TILE_DENSITY) rows->j[SPH_TILE_DENSITY][n] = j->rho;
+  if (k->fields & 1u << SPH_TILE_PRESSURE) rows->j[SPH_TILE_PRESSURE][n] = fluid_pressure(terms, j);
+  if (k->fields & 1u << SPH_TILE_SOUND_SPEED) rows->j[SPH_TILE_SOUND_SPEED][n] = j->c;
+  if (k->fields & 1u << SPH_TILE_ENERGY) rows->j[SPH_TILE_ENERGY][n] = v_set(record[slot_u(dim)]);
+  if (k->fields & 1u << SPH_TILE_TEMPERATURE)
+    rows->j[SPH_TILE_TEMPERATURE][n] = v_set(record[slot_T(dim)]);
+  for (int s = 0; s < k->scalars; s++) {
+    rows->ds[s][n] = v_set(0);
+    if (k->fields >> (SPH_TILE_SCALAR + s) & 1)
+      rows->j[SPH_TILE_SCALAR + s][n] =
+          terms & SPH_WALL ? rows->i[SPH_TILE_SCALAR + s][n] : v_set(record[slot_scalar(dim) + s]);
+  }
 }
 
 /* Row n: the pair (i, j), after the built-in terms have acted on it. */
-BODY void tile_fill(int dim, int kernel, const tile_constants *k, const vec *slot_i,
-                    const vec *slot_j, vec *sum, tile_rows *rows, int n)
+BODY void tile_fill(int dim, int kernel, unsigned terms, const tile_constants *k, const vec *slot_i,
+                    const vec *slot_j, const double *record, vec *sum, tile_rows *rows, int n)
 {
-  const unsigned terms = k->fluid.terms;
   const particle i = fluid_particle(dim, terms, slot_i), j = fluid_particle(dim, terms, slot_j);
   pair p = fluid_pair_common(dim, kernel, terms, &k->fluid, &i, &j);
   fluid_terms(dim, kernel, terms, &p, &k->fluid, &i, &j, sum);
@@ -93,28 +108,26 @@ BODY void tile_fill(int dim, int kernel, const tile_constants *k, const vec *slo
   rows->r2[n] = p.r2;
   rows->rv[n] = p.rv;
   if (terms & SPH_NO_SLIP) {
-    rows->rv_viscous[n] = v_set(0);
+    vec rv = v_set(0);
     for (int d = 0; d < dim; d++) {
-      rows->v_viscous[d][n] = i.v[d] - j.extra[d];
-      rows->rv_viscous[n] += p.r[d] * rows->v_viscous[d][n];
+      vec v = i.v[d] - j.extra[d];
+      rows->v_viscous[d][n] = v;
+      rv += p.r[d] * v;
     }
+    rows->rv_viscous[n] = rv;
   }
   rows->F[n] = k->F_scale * p.F;
   rows->V[n] = j.V;
   rows->m[n] = j.V * j.rho;
   rows->push[n] = rows->along_r[n] = rows->along_v[n] = rows->drho[n] = rows->du[n] = v_set(0);
-  for (int s = 0; s < k->scalars; s++) rows->ds[s][n] = v_set(0);
-  for (int f = 0; f < SPH_TILE_FIELDS; f++) {
-    if (!(k->fields >> f & 1)) continue;
-    int mirrored = f >= SPH_TILE_SCALAR && (terms & SPH_WALL);
-    rows->j[f][n] = mirrored ? rows->i[f][n] : tile_field(dim, terms, slot_j, &j, f);
-  }
+  tile_source(dim, terms, k, &j, record, rows, n);
 }
 
 /* The registered terms, each on rows 0 .. n - 1. */
 static __attribute__((noinline, unused)) void tile_call(int dim, const tile_constants *k,
                                                         tile_rows *rows, int n)
 {
+  const int no_slip = (k->fluid.terms & SPH_NO_SLIP) != 0;
   sph_tile tile = {.dim = dim,
                    .wall = (k->fluid.terms & SPH_WALL) != 0,
                    .n = (long)n * SPH_LANES,
@@ -124,6 +137,7 @@ static __attribute__((noinline, unused)) void tile_call(int dim, const tile_cons
                    .source = k->source,
                    .r2 = (const double *)rows->r2,
                    .rv = (const double *)rows->rv,
+                   .rv_viscous = (const double *)(no_slip ? rows->rv_viscous : rows->rv),
                    .F = (const double *)rows->F,
                    .V = (const double *)rows->V,
                    .m = (const double *)rows->m,
@@ -132,8 +146,6 @@ static __attribute__((noinline, unused)) void tile_call(int dim, const tile_cons
                    .along_v = (double *)rows->along_v,
                    .drho = (double *)rows->drho,
                    .du = (double *)rows->du};
-  const int no_slip = (k->fluid.terms & SPH_NO_SLIP) != 0;
-  tile.rv_viscous = no_slip ? (const double *)rows->rv_viscous : tile.rv;
   for (int d = 0; d < dim; d++) {
     tile.r[d] = (const double *)rows->r[d];
     tile.v[d] = (const double *)rows->v[d];
@@ -153,13 +165,13 @@ static __attribute__((noinline, unused)) void tile_call(int dim, const tile_cons
   }
 }
 
-/* Sums what they added, in the unit of the fluid sums. */
-BODY void tile_take(int dim, const tile_constants *k, const tile_rows *rows, int n, vec *sum)
+/* Sums what they added, in the unit of the fluid sums; more: density, scalars. */
+BODY void tile_take(int dim, unsigned terms, const tile_constants *k, const tile_rows *rows, int n,
+                    vec *sum, vec *more)
 {
   const vec unit = v_set(1 / k->F_scale);
-  const int no_slip = (k->fluid.terms & SPH_NO_SLIP) != 0;
-  const vec(*v)[SPH_TILE_ROWS] = no_slip ? rows->v_viscous : rows->v;
-  const vec *rv = no_slip ? rows->rv_viscous : rows->rv;
+  const vec(*v)[SPH_TILE_ROWS] = terms & SPH_NO_SLIP ? rows->v_viscous : rows->v;
+  const vec *rv = terms & SPH_NO_SLIP ? rows->rv_viscous : rows->rv;
   for (int q = 0; q < n; q++) {
     vec force = unit * (rows->push[q] + rows->along_r[q]), drag = unit * rows->along_v[q];
     vec v2 = v_set(0);
@@ -169,50 +181,72 @@ BODY void tile_take(int dim, const tile_constants *k, const tile_rows *rows, int
     }
     vec work = unit * rows->along_r[q] * rv[q] + drag * v2;
     sum[SPH_SUM_HEAT] += unit * rows->du[q] - 0.5 * work;
-    sum[SPH_SUM_DENSITY] += unit * rows->drho[q];
-    for (int s = 0; s < k->scalars; s++) sum[SPH_SUM_SCALAR + s] += unit * rows->ds[s][q];
+    more[0] += unit * rows->drho[q];
   }
+  for (int s = 0; s < k->scalars; s++)
+    for (int q = 0; q < n; q++) more[1 + s] += unit * rows->ds[s][q];
 }
 
 /* All pairs of one block; rows go on over the ends of runs. */
-BODY void tile_block(int dim, int kernel, const sph_pair_task *t, long b, const vec *home, vec *sum,
-                     tile_rows *rows)
+BODY void tile_block(int dim, int kernel, unsigned terms, const sph_pair_task *t, long b, vec *sum,
+                     vec *more, tile_rows *rows)
 {
   const tile_constants *k = t->constants;
+  const int slots = slot_scalar(dim);
+  const double *record = t->target + b * SPH_LANES * t->target_stride;
+  vec home[SPH_PAIR_SLOTS];
   int n = 0;
-  tile_targets(dim, k, home, rows);
+#pragma GCC unroll 24
+  for (int s = 0; s < slots; s++) home[s] = v_gather(record + s, t->target_stride);
+  tile_targets(dim, k, record, t->target_stride, rows);
   for (long r = t->first[b]; r < t->first[b + 1]; r++) {
     const sph_run run = t->runs[r];
     vec i[SPH_PAIR_SLOTS], j[SPH_PAIR_SLOTS];
-    for (int s = 0; s < k->slots; s++) i[s] = s < dim ? home[s] - t->shift[run.image][s] : home[s];
+#pragma GCC unroll 24
+    for (int s = 0; s < slots; s++) i[s] = s < dim ? home[s] - t->shift[run.image][s] : home[s];
     const double *source = t->source + (long)run.start * t->source_stride;
     for (int q = 0; q < (int)run.count; q++, source += t->source_stride) {
-      for (int s = 0; s < k->slots; s++) j[s] = v_set(source[s]);
-      tile_fill(dim, kernel, k, i, j, sum, rows, n++);
+#pragma GCC unroll 24
+      for (int s = 0; s < slots; s++) j[s] = v_set(source[s]);
+      tile_fill(dim, kernel, terms, k, i, j, source, sum, rows, n++);
       if (n < SPH_TILE_ROWS) continue;
       tile_call(dim, k, rows, n);
-      tile_take(dim, k, rows, n, sum);
+      tile_take(dim, terms, k, rows, n, sum, more);
       n = 0;
     }
   }
   if (n > 0) tile_call(dim, k, rows, n);
-  tile_take(dim, k, rows, n, sum);
+  tile_take(dim, terms, k, rows, n, sum, more);
 }
 
-BODY void tile_loop(int dim, int kernel, const sph_pair_task *t, long begin, long end)
+BODY void tile_blocks(int dim, int kernel, unsigned terms, const sph_pair_task *t, long begin,
+                      long end)
 {
   const tile_constants *k = t->constants;
-  const int sums = SPH_SUM_SCALAR + k->scalars;
   tile_rows rows;
   for (long b = begin; b < end; b++) {
     if (t->first[b] == t->first[b + 1]) continue;
-    vec home[SPH_PAIR_SLOTS], sum[SPH_TILE_SUMS];
-    const double *record = t->target + b * SPH_LANES * t->target_stride;
-    for (int s = 0; s < k->slots; s++) home[s] = v_gather(record + s, t->target_stride);
-    for (int s = 0; s < sums; s++) sum[s] = v_load(t->sum[s] + b * SPH_LANES);
-    tile_block(dim, kernel, t, b, home, sum, &rows);
-    for (int s = 0; s < sums; s++) v_store(t->sum[s] + b * SPH_LANES, sum[s]);
+    vec sum[SPH_FLUID_SUMS_ALL], more[1 + SPH_SCALARS_MAX];
+#pragma GCC unroll 9
+    for (int s = 0; s < SPH_FLUID_SUMS_ALL; s++) sum[s] = v_load(t->sum[s] + b * SPH_LANES);
+    for (int s = 0; s <= k->scalars; s++)
+      more[s] = v_load(t->sum[SPH_SUM_DENSITY + s] + b * SPH_LANES);
+    tile_block(dim, kernel, terms, t, b, sum, more, &rows);
+#pragma GCC unroll 9
+    for (int s = 0; s < SPH_FLUID_SUMS_ALL; s++) v_store(t->sum[s] + b * SPH_LANES, sum[s]);
+    for (int s = 0; s <= k->scalars; s++)
+      v_store(t->sum[SPH_SUM_DENSITY + s] + b * SPH_LANES, more[s]);
   }
+}
+
+/* The built-in terms run faster where the rare ones are known to be absent. */
+BODY void tile_loop(int dim, int kernel, const sph_pair_task *t, long begin, long end)
+{
+  const unsigned terms = ((const tile_constants *)t->constants)->fluid.terms;
+  if (terms & SPH_RARE)
+    tile_blocks(dim, kernel, terms, t, begin, end);
+  else
+    tile_blocks(dim, kernel, terms & ~(unsigned)SPH_RARE, t, begin, end);
 }
 
 #endif
