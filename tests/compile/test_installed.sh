@@ -17,7 +17,7 @@ try() { # name, command...
   sed 's/^/# /' "$stage/log"
 }
 config() { PKG_CONFIG_SYSROOT_DIR=$stage PKG_CONFIG_PATH=$pc "$PKG_CONFIG" "$@"; }
-program() { LD_LIBRARY_PATH=$library "$stage/program"; }
+program() { LD_LIBRARY_PATH=$library:${LD_LIBRARY_PATH:-} "$stage/program"; }
 
 echo 1..5
 try "make install into a stage" env -u MAKEFLAGS -u MAKELEVEL "$MAKE" -C "$BUILDDIR" install DESTDIR="$stage"
@@ -26,4 +26,4 @@ library=$(dirname "$pc")
 try "pkg-config knows it" config --exists --print-errors sphode
 try "it compiles and links" $CC $(config --cflags sphode) -o "$stage/program" "$stage/program.c" $(config --libs sphode)
 try "it runs" program
-try "the installed program runs" env LD_LIBRARY_PATH="$library" "$(find "$stage" -path '*/bin/sphode')" --version
+try "the installed program runs" env LD_LIBRARY_PATH="$library:${LD_LIBRARY_PATH:-}" "$(find "$stage" -path '*/bin/sphode')" --version
