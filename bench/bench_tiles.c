@@ -42,10 +42,13 @@ static void diffusion(const sph_term *term, const sph_tile *t)
 }
 
 static const sph_term tiles[TERMS] = {
-    {.name = "viscosity by tile", .pair = viscosity, .reads = "density sound_speed"},
-    {.name = "continuity by tile", .pair = continuity, .reads = "density"},
-    {.name = "pressure by tile", .pair = pressure, .reads = "density pressure"},
-    {.name = "diffusion by tile", .pair = diffusion, .reads = "density"},
+    {.name = "viscosity by tile",
+     .pair = viscosity,
+     .reads = "density sound_speed",
+     .adds = "along_r"},
+    {.name = "continuity by tile", .pair = continuity, .reads = "density", .adds = "drho"},
+    {.name = "pressure by tile", .pair = pressure, .reads = "density pressure", .adds = "push"},
+    {.name = "diffusion by tile", .pair = diffusion, .reads = "density", .adds = "drho"},
 };
 
 static double noise(unsigned *state)

@@ -28,6 +28,7 @@ static double diffuse_dt_max(const sph_term *term, const sph_particles *s)
 static const sph_term diffusion = {
     .name = "diffusion of dye",
     .pair = diffuse,
+    .adds = "ds",
     .dt_max = diffuse_dt_max,
     .scalar = {.name = "dye", .unit = "kg/m^3", .scale = 1},
 };

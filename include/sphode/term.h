@@ -53,7 +53,7 @@ typedef struct sph_tile {
   const double *i[SPH_TILE_READS]; /* the fields that term->reads names, of i, */
   const double *j[SPH_TILE_READS]; /* and of j */
   const double *s_i, *s_j;         /* the term's own scalar; NULL without one */
-  /* Add: */
+  /* Add; NULL for what no term's `adds` names: */
   double *push;    /* [1/s^2] acceleration push * r of i: a conservative force, heats nothing */
   double *along_r; /* [1/s^2] acceleration along_r * r: dissipative, half of its work heats i */
   double *along_v; /* [1/s] acceleration along_v * v_viscous: likewise */
@@ -96,6 +96,7 @@ struct sph_term {
    * Called from several threads at once: read ctx, do not write to it. */
   void (*pair)(const sph_term *term, const sph_tile *tile);
   const char *reads; /* fields that pair wants of both ends, as "density sound_speed"; copied */
+  const char *adds; /* what pair adds to, as "along_r ds": only that is summed; NULL: all; copied */
   sph_scalar scalar; /* what it integrates besides; scalar.name NULL: nothing */
   double (*dt_max)(const sph_term *term, const sph_particles *particles); /* [s]; NULL: no limit */
   /* [J/kg] for the energy balance; NULL: none */

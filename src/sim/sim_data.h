@@ -65,8 +65,8 @@ struct sph_sim {
   unsigned loop_terms; /* bits of the fluid <- fluid loop */
   int fluid_sums;      /* sums that its loops make */
   int needs_temperature;
-  int tile_terms; /* registered pair terms, and the fields that they read */
-  unsigned tile_fields;
+  int tile_terms; /* registered pair terms, the fields that they read, and what they add to */
+  unsigned tile_fields, tile_adds;
   sph_tile_term tile[SPH_TILE_TERMS];
   fluid_constants constants;              /* of no interaction: for walls and gradients */
   double F_scale, W_scale;                /* sigma/h^(d+2), sigma/h^d */

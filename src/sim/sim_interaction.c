@@ -81,6 +81,7 @@ static void add_tiles(sph_evaluation *e, const fluid_constants *fluid, int targe
                       .slots = (int)sim->sorted[target].stride,
                       .scalars = sim->terms.scalars,
                       .fields = sim->tile_fields,
+                      .adds = sim->tile_adds,
                       .terms = sim->tile_terms};
   memcpy(k.term, sim->tile, sizeof k.term);
   sph_sim_pairs_loop(sim, sph_tile_loop(sim->isa, sim->kernel_number, sim->dim), target, source,
@@ -140,6 +141,25 @@ static int read_fields(sph_sim *sim, const sph_called_term *call, sph_tile_term 
   return SPH_OK;
 }
 
+/* "along_r du": what a term adds to. */
+static int read_adds(sph_sim *sim, const sph_called_term *call)
+{
+  static const char *const names[] = {"push", "along_r", "along_v", "drho", "du", "ds"};
+  char text[SPH_TERM_READS_MAX], *rest = NULL;
+  memcpy(text, call->adds, sizeof text);
+  if (!call->term.adds) sim->tile_adds |= SPH_TILE_ALL;
+  for (char *word = strtok_r(text, " ,", &rest); word; word = strtok_r(NULL, " ,", &rest)) {
+    int k = 0;
+    while (k < 6 && strcmp(word, names[k])) k++;
+    if (k == 6)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "term %s adds to \"%.60s\"; known: push, along_r, along_v, drho, du, ds",
+                          call->name, word);
+    sim->tile_adds |= 1u << k;
+  }
+  return SPH_OK;
+}
+
 int sph_sim_interaction_prepare(sph_sim *sim)
 {
   int status = SPH_OK;
@@ -150,6 +170,7 @@ int sph_sim_interaction_prepare(sph_sim *sim)
     *tile = (sph_tile_term){.term = &call->term, .scalar = call->scalar};
     if (call->scalar >= 0) sim->tile_fields |= 1u << (SPH_TILE_SCALAR + call->scalar);
     status = read_fields(sim, call, tile);
+    if (!status) status = read_adds(sim, call);
   }
   return status;
 }

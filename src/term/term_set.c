@@ -207,9 +207,11 @@ static int check_called(const sph_term_set *set, const sph_term *term, sph_error
                          "term \"%s\": not a built-in one and without a body or pair function",
                          term->name);
   if (is_finite(term, "omega", term->omega, error)) return SPH_ERR_ARGUMENT;
-  if (term->reads && strlen(term->reads) >= SPH_TERM_READS_MAX)
-    return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: reads of more than %d characters",
-                         term->name, SPH_TERM_READS_MAX - 1);
+  if ((term->reads && strlen(term->reads) >= SPH_TERM_READS_MAX) ||
+      (term->adds && strlen(term->adds) >= SPH_TERM_READS_MAX))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term %s: reads or adds of more than %d characters", term->name,
+                         SPH_TERM_READS_MAX - 1);
   if (set->called == SPH_CALLED_TERMS_MAX)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: more than %d terms with functions",
                          term->name, SPH_CALLED_TERMS_MAX);
@@ -226,6 +228,8 @@ static int add_called(sph_term_set *set, const sph_term *term, sph_error *error)
   snprintf(kept->reads, sizeof kept->reads, "%s", term->reads ? term->reads : "");
   kept->term.name = kept->name;
   kept->term.reads = kept->reads;
+  snprintf(kept->adds, sizeof kept->adds, "%s", term->adds ? term->adds : "");
+  kept->term.adds = term->adds ? kept->adds : NULL;
   kept->term.form = NULL;
   kept->scalar = term->scalar.name ? keep_scalar(set, &term->scalar) : -1;
   if (kept->scalar >= 0) {

@@ -11,7 +11,7 @@ enum { SPH_CALLED_TERMS_MAX = 32, SPH_TERM_NAME_MAX = 64, SPH_TERM_READS_MAX = 2
 /* A term with callbacks, and its strings. */
 typedef struct sph_called_term {
   sph_term term;
-  char name[SPH_TERM_NAME_MAX], reads[SPH_TERM_READS_MAX];
+  char name[SPH_TERM_NAME_MAX], reads[SPH_TERM_READS_MAX], adds[SPH_TERM_READS_MAX];
   int scalar; /* its number among the scalars, or -1 */
 } sph_called_term;
 

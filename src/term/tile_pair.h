@@ -28,6 +28,17 @@ enum {
   SPH_TILE_SUMS = SPH_SUM_SCALAR + SPH_SCALARS_MAX
 };
 
+/* What tiles add to. */
+enum sph_tile_add {
+  SPH_TILE_PUSH = 1,
+  SPH_TILE_ALONG_R = 2,
+  SPH_TILE_ALONG_V = 4,
+  SPH_TILE_DRHO = 8,
+  SPH_TILE_DU = 16,
+  SPH_TILE_DS = 32,
+  SPH_TILE_ALL = 63
+};
+
 typedef struct sph_tile_term {
   const sph_term *term;
   int scalar;                         /* its own, or -1 */
@@ -42,6 +53,7 @@ typedef struct tile_constants {
   const char *target, *source;
   int slots, scalars;
   unsigned fields; /* bit of each field that any of them reads */
+  unsigned adds;   /* enum sph_tile_add that any of them adds to */
   int terms;
   sph_tile_term term[SPH_TILE_TERMS];
 } tile_constants;
@@ -119,8 +131,18 @@ BODY void tile_fill(int dim, int kernel, unsigned terms, const tile_constants *k
   rows->F[n] = k->F_scale * p.F;
   rows->V[n] = j.V;
   rows->m[n] = j.V * j.rho;
-  rows->push[n] = rows->along_r[n] = rows->along_v[n] = rows->drho[n] = rows->du[n] = v_set(0);
   tile_source(dim, terms, k, &j, record, rows, n);
+}
+
+/* Nothing is added yet. */
+BODY void tile_clear(unsigned adds, tile_rows *rows, int n)
+{
+  size_t bytes = (size_t)n * sizeof(vec);
+  if (adds & SPH_TILE_PUSH) memset(rows->push, 0, bytes);
+  if (adds & SPH_TILE_ALONG_R) memset(rows->along_r, 0, bytes);
+  if (adds & SPH_TILE_ALONG_V) memset(rows->along_v, 0, bytes);
+  if (adds & SPH_TILE_DRHO) memset(rows->drho, 0, bytes);
+  if (adds & SPH_TILE_DU) memset(rows->du, 0, bytes);
 }
 
 /* The registered terms, each on rows 0 .. n - 1. */
@@ -141,11 +163,12 @@ static __attribute__((noinline, unused)) void tile_call(int dim, const tile_cons
                    .F = (const double *)rows->F,
                    .V = (const double *)rows->V,
                    .m = (const double *)rows->m,
-                   .push = (double *)rows->push,
-                   .along_r = (double *)rows->along_r,
-                   .along_v = (double *)rows->along_v,
-                   .drho = (double *)rows->drho,
-                   .du = (double *)rows->du};
+                   .push = k->adds & SPH_TILE_PUSH ? (double *)rows->push : NULL,
+                   .along_r = k->adds & SPH_TILE_ALONG_R ? (double *)rows->along_r : NULL,
+                   .along_v = k->adds & SPH_TILE_ALONG_V ? (double *)rows->along_v : NULL,
+                   .drho = k->adds & SPH_TILE_DRHO ? (double *)rows->drho : NULL,
+                   .du = k->adds & SPH_TILE_DU ? (double *)rows->du : NULL};
+  tile_clear(k->adds, rows, n);
   for (int d = 0; d < dim; d++) {
     tile.r[d] = (const double *)rows->r[d];
     tile.v[d] = (const double *)rows->v[d];
@@ -165,26 +188,53 @@ static __attribute__((noinline, unused)) void tile_call(int dim, const tile_cons
   }
 }
 
+/* Forces along r, from rows that hold them; dissipative ones heat. */
+BODY void tile_take_along(int dim, const tile_rows *rows, const vec *along, const vec *rv, int n,
+                          vec *sum)
+{
+  for (int q = 0; q < n; q++) {
+    for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += along[q] * rows->r[d][q];
+    if (rv) sum[SPH_SUM_HEAT] -= 0.5 * along[q] * rv[q];
+  }
+}
+
+BODY void tile_take_drag(int dim, const tile_rows *rows, const vec (*v)[SPH_TILE_ROWS], int n,
+                         vec *sum)
+{
+  for (int q = 0; q < n; q++) {
+    vec v2 = v_set(0);
+    for (int d = 0; d < dim; d++) {
+      sum[SPH_SUM_A + d] += rows->along_v[q] * v[d][q];
+      v2 += v[d][q] * v[d][q];
+    }
+    sum[SPH_SUM_HEAT] -= 0.5 * rows->along_v[q] * v2;
+  }
+}
+
+BODY vec tile_total(const vec *row, int n)
+{
+  vec total = v_set(0);
+  for (int q = 0; q < n; q++) total += row[q];
+  return total;
+}
+
 /* Sums what they added, in the unit of the fluid sums; more: density, scalars. */
 BODY void tile_take(int dim, unsigned terms, const tile_constants *k, const tile_rows *rows, int n,
                     vec *sum, vec *more)
 {
   const vec unit = v_set(1 / k->F_scale);
-  const vec(*v)[SPH_TILE_ROWS] = terms & SPH_NO_SLIP ? rows->v_viscous : rows->v;
-  const vec *rv = terms & SPH_NO_SLIP ? rows->rv_viscous : rows->rv;
-  for (int q = 0; q < n; q++) {
-    vec force = unit * (rows->push[q] + rows->along_r[q]), drag = unit * rows->along_v[q];
-    vec v2 = v_set(0);
-    for (int d = 0; d < dim; d++) {
-      sum[SPH_SUM_A + d] += force * rows->r[d][q] + drag * v[d][q];
-      v2 += v[d][q] * v[d][q];
-    }
-    vec work = unit * rows->along_r[q] * rv[q] + drag * v2;
-    sum[SPH_SUM_HEAT] += unit * rows->du[q] - 0.5 * work;
-    more[0] += unit * rows->drho[q];
-  }
-  for (int s = 0; s < k->scalars; s++)
-    for (int q = 0; q < n; q++) more[1 + s] += unit * rows->ds[s][q];
+  const int no_slip = (terms & SPH_NO_SLIP) != 0;
+  vec taken[SPH_FLUID_SUMS_ALL] = {{0}};
+  if (k->adds & SPH_TILE_PUSH) tile_take_along(dim, rows, rows->push, NULL, n, taken);
+  if (k->adds & SPH_TILE_ALONG_R)
+    tile_take_along(dim, rows, rows->along_r, no_slip ? rows->rv_viscous : rows->rv, n, taken);
+  if (k->adds & SPH_TILE_ALONG_V)
+    tile_take_drag(dim, rows, no_slip ? rows->v_viscous : rows->v, n, taken);
+  if (k->adds & SPH_TILE_DU) taken[SPH_SUM_HEAT] += tile_total(rows->du, n);
+  for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += unit * taken[SPH_SUM_A + d];
+  sum[SPH_SUM_HEAT] += unit * taken[SPH_SUM_HEAT];
+  if (k->adds & SPH_TILE_DRHO) more[0] += unit * tile_total(rows->drho, n);
+  for (int s = 0; s < k->scalars; s++) more[1 + s] += unit * tile_total(rows->ds[s], n);
 }
 
 /* All pairs of one block; rows go on over the ends of runs. */

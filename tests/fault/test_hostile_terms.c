@@ -338,7 +338,11 @@ static void reads(void **state)
   refused(gas(), (sph_term){.name = "dye", .pair = pair, .reads = many},
           "term dye reads more than 8 fields");
   refused(gas(), (sph_term){.name = "dye", .pair = pair, .reads = longer},
-          "term dye: reads of more than 255 characters");
+          "term dye: reads or adds of more than 255 characters");
+  refused(gas(), (sph_term){.name = "dye", .pair = pair, .adds = longer},
+          "term dye: reads or adds of more than 255 characters");
+  refused(gas(), (sph_term){.name = "dye", .pair = pair, .adds = "drho, speed"},
+          "term dye adds to \"speed\"; known: push, along_r, along_v, drho, du, ds");
 }
 
 /* ---- NULL flows through, and after the start it is too late ---- */

@@ -73,18 +73,18 @@ static void conduction(const sph_term *term, const sph_tile *t)
 static const double eta = 2, c0 = 10, kappa = 15;
 
 typedef struct both {
-  const char *name, *reads;
+  const char *name, *reads, *adds;
   void (*pair)(const sph_term *term, const sph_tile *tile);
   const double *ctx;
   int thermal;
 } both;
 
 static const both all[] = {
-    {"water", "density pressure", water, NULL, -1},
-    {"artificial", "density,sound_speed", artificial, NULL, -1},
-    {"morris", "density", morris, &eta, -1},
-    {"molteni", "density", molteni, &c0, 0},
-    {"conduction", "density temperature", conduction, &kappa, 1},
+    {"water", "density pressure", "push drho du", water, NULL, -1},
+    {"artificial", "density,sound_speed", "along_r", artificial, NULL, -1},
+    {"morris", "density", "along_v", morris, &eta, -1},
+    {"molteni", "density", NULL, molteni, &c0, 0},
+    {"conduction", "density temperature", "du", conduction, &kappa, 1},
 };
 enum { TERMS = sizeof all / sizeof *all };
 
@@ -115,6 +115,7 @@ static scene_rates rates(scene *s, unsigned tiles, scene_options options)
     sph_sim_add_term(sim, (sph_term){.name = all[k].name,
                                      .pair = all[k].pair,
                                      .reads = all[k].reads,
+                                     .adds = all[k].adds,
                                      .ctx = (void *)(size_t)all[k].ctx});
   }
   assert_string_equal(sph_sim_error(sim), "");
