@@ -3,8 +3,8 @@
  * Equations  dC_i/dt = 2 D sum_j V_j (C_i - C_j) F_ij  ->  D lap C;   the flow carries C along
  * Reference  a wave of dye 1 + cos kx keeps its shape and decays as exp(-D k^2 t) (Brookshaw 1985)
  * Run        ./06_own_scalar
- * See        06_own_scalar/snapshot.hdf.series in ParaView, coloured by "dye"; dye_mean, dye_min,
- *            dye_max in 06_own_scalar/series.csv; sphode plot --field dye 06_own_scalar
+ * See        own_scalar/snapshot.hdf.series in ParaView, coloured by "dye"; dye_mean, dye_min,
+ *            dye_max in own_scalar/series.csv; sphode plot --field dye own_scalar
  * Check      after the wave has fallen to 1/e: decay within 1 %, amount of dye to rounding */
 #include <sphode.h>
 #include <stdio.h>
@@ -65,8 +65,8 @@ int main(void)
   double *C = sph_group_write(water, "dye", 0);
   for (long i = 0; x && C && i < sph_group_count(water); i++) C[i] = 1 + cos(k * x[i]);
 
-  sph_sim_add_output(sim, sph_output_hdf5("06_own_scalar", end / 4));
-  sph_sim_add_output(sim, sph_output_series("06_own_scalar", end / 100, NULL, 0));
+  sph_sim_add_output(sim, sph_output_hdf5("own_scalar", end / 4));
+  sph_sim_add_output(sim, sph_output_series("own_scalar", end / 100, NULL, 0));
   double error = INFINITY;
   if (sph_sim_run(sim, end) == SPH_OK) {
     error = fabs(amplitude(water, k, &mean) * exp(1) - 1);

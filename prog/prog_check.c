@@ -59,6 +59,9 @@ static int warnings(const sph_sim *sim)
   int n = 0;
   for (int k = 0; (group = sph_sim_group_get(sim, k)); k++)
     if (!strcmp(sph_group_kind(group), "fluid")) n += warn_liquid(group, sph_sim_dim(sim));
+  char text[200];
+  for (int k = 0; sph_sim_warning(sim, k, text, sizeof text); k++, n++)
+    printf("warning      %s\n", text);
   double ratio = sph_sim_h(sim) / sph_sim_dx(sim);
   if (ratio < 1 || ratio > 3) {
     printf("warning      h = %.3g dx; usual is 1.2 to 2\n", ratio);

@@ -46,8 +46,9 @@ SPH_API sph_group *sph_group_walls(sph_sim *sim, const char *name, const double 
 SPH_API void sph_group_set_eos(sph_group *group, sph_eos eos);
 SPH_API void sph_group_set_boundary(sph_group *group, sph_boundary boundary);
 
-/* Dynamic viscosity eta [Pa s] and conductivity of heat kappa [W/(m K)] of a fluid or a wall, >= 0
- * and finite, before the run; default 0. */
+/* Dynamic viscosity eta [Pa s] of a fluid (walls take that of each fluid) and conductivity of heat
+ * kappa [W/(m K)] of a fluid or a wall (0: that of the fluid), >= 0 and finite, before the run;
+ * default 0. */
 SPH_API void sph_group_set_viscosity(sph_group *group, double eta);
 SPH_API void sph_group_set_conductivity(sph_group *group, double kappa);
 /* Which energy a fluid integrates: "u" (internal), "total" (u + v^2/2), "entropy" (A = p/rho^gamma,

@@ -101,7 +101,7 @@ typedef struct sph_step_stats {
 
 enum sph_bound {
   SPH_BOUND_CFL,     /* acoustic limit */
-  SPH_BOUND_VISCOUS, /* and CONDUCTION: for terms to come, no built-in one sets them yet */
+  SPH_BOUND_VISCOUS, /* laminar viscosity */
   SPH_BOUND_FORCE,
   SPH_BOUND_CONDUCTION,
   SPH_BOUND_ERROR, /* error control */

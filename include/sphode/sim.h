@@ -6,6 +6,8 @@
  * overlap; two simulations may run in two threads. */
 #ifndef SPHODE_SIM_H
 #define SPHODE_SIM_H
+#include <stddef.h>
+
 #include "sphode/base.h"
 #include "sphode/group.h"
 #include "sphode/integrator.h"
@@ -47,6 +49,10 @@ SPH_API void sph_sim_add_output(sph_sim *sim, sph_output output);
  * closed. */
 SPH_API void sph_sim_set_progress(sph_sim *sim, int (*progress)(void *ctx, sph_sim *sim),
                                   void *ctx);
+
+/* Warning k = 0, 1, ... about terms and materials that do nothing together, or are missing, as one
+ * line in text[size]; 0 behind the last.  All groups and terms should be there. */
+SPH_API int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size);
 
 /* Runs to time t_end [s], writing outputs; or one step.  Returns a status. */
 SPH_API int sph_sim_run(sph_sim *sim, double t_end);

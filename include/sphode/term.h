@@ -19,7 +19,7 @@ typedef struct sph_particles {
   const double *x[3]; /* [n] positions [m]; NULL for d >= dim */
   const double *v[3]; /* [n] velocities [m/s] */
   const double *rho;  /* [n] density [kg/m^3] */
-  const double *u;    /* [n] internal energy [J/kg], NULL unless the group is thermal */
+  const double *u;    /* [n] internal energy [J/kg], NULL unless the group has an energy */
   const double *p;    /* [n] pressure [Pa] */
   const double *c;    /* [n] sound speed [m/s] */
   const double *m;    /* [n] mass [kg, kg/m, kg/m^2 in 3D, 2D, 1D] */
@@ -39,7 +39,9 @@ enum { SPH_TILE_READS = 8, SPH_SCALARS_MAX = 8 };
  * to vectorise: compile it with -O3 -march=native. */
 typedef struct sph_tile {
   int dim;
-  int wall; /* the sources are a wall: scalars mirror those of i */
+  /* The sources are a wall: its scalars, energy and temperature mirror those of i, so that nothing
+   * flows; with a temperature of its own it has 2 T - <T of the fluid>. */
+  int wall;
   long n;
   double t, h;                 /* time [s], smoothing length [m] */
   const char *target, *source; /* names of the groups of i, of j */
@@ -65,7 +67,7 @@ typedef struct sph_tile {
 /* A scalar that a term brings along: integrated with the state of every fluid particle, from
  * `initial` on; read and written as a field of its name, saved in snapshots, in series.csv. */
 typedef struct sph_scalar {
-  const char *name; /* [A-Za-z0-9_], no other field's; NULL: none; copied */
+  const char *name; /* [a-z][A-Za-z0-9_]*, no other field's; NULL: none; copied */
   const char *unit; /* "kg/m^3"; NULL: "1"; copied */
   double scale;     /* of its error weights: a change that matters, > 0 */
   double initial;   /* value at the start */
@@ -146,7 +148,7 @@ SPH_API sph_term sph_term_conductivity_artificial(double alpha_u);
 /* Density diffusion of the delta-SPH family: model "molteni", "antuono" or "fourtakas" (which
  * takes the hydrostatic density of the uniform body force out); delta >= 0, usually 0.1. */
 SPH_API sph_term sph_term_delta(const char *model, double delta);
-/* Uniform body force g[3] [m/s^2]. */
+/* Uniform body force g[3] [m/s^2]; several add up. */
 SPH_API sph_term sph_term_gravity(const double g[3]);
 /* Central harmonic body force a = -omega^2 x [1/s]: the oscillating drop. */
 SPH_API sph_term sph_term_harmonic(double omega);

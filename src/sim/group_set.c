@@ -134,9 +134,9 @@ void sph_group_set_temperature(sph_group *group, const double *T)
     return;
   }
   for (long i = 0; i < group->n; i++)
-    if (!isfinite(T[i])) {
-      sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s, particle %ld: temperature %g K",
-                   group->name, i, T[i]);
+    if (!(T[i] > 0 && T[i] < INFINITY)) {
+      sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
+                   "group %s, particle %ld: temperature %g K; right is > 0", group->name, i, T[i]);
       return;
     }
   sph_eos_energy(&group->eos, group->n, group->own[SPH_DENSITY][0], T, group->own[SPH_ENERGY][0]);

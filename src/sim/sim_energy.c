@@ -138,5 +138,12 @@ int sph_sim_energy_start(sph_group *group)
   if (!status && group->sim->needs_temperature && group->eos.c_v > 0)
     status = sph_group_data_own(group, SPH_TEMPERATURE, &group->sim->error);
   if (status || field < 0 || field == SPH_ENERGY) return status;
-  return sph_sim_energy_derive(group, NULL, field);
+  status = sph_sim_energy_derive(group, NULL, field);
+  for (long i = 0; !status && field == SPH_TEMPERATURE && i < group->n; i++)
+    if (!(group->own[field][0][i] > 0))
+      status = sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
+                            "group %s, particle %ld: starts at %g K; right is > 0: set its "
+                            "temperature",
+                            group->name, i, group->own[field][0][i]);
+  return status;
 }

@@ -80,6 +80,7 @@ static void add_tiles(sph_evaluation *e, const fluid_constants *fluid, int targe
                       .source = sim->group[source]->name,
                       .slots = (int)sim->sorted[target].stride,
                       .scalars = sim->terms.scalars,
+                      .isothermal = sim->group[source]->boundary.temperature > 0,
                       .fields = sim->tile_fields,
                       .adds = sim->tile_adds,
                       .terms = sim->tile_terms};

@@ -2,7 +2,7 @@
  *   x: h;  v: V = max(user's, sqrt(g height), 0.01 c0, |v| at the start);
  *   rho: rho0 (V/c0)^2;  u, e: V^2/2;  A: (gamma - 1) rho^(1-gamma) V^2/2;  T: V^2/(2 c_v)
  * and for a thermal one c0 = mean sound speed, rho0 = mean density; for a gas (no c0) V = c0.  An
- * energy that is carried along: the range of u at the start, if that is more.  Scalars: as their
+ * energy that is carried along: the range of u at the start or a thousandth of u, if that is more.  Scalars: as their
  * terms say. */
 #include "sim_weights.h"
 
@@ -15,14 +15,16 @@ static double mean(const double *a, long n)
   return n ? sum / (double)n : 0;
 }
 
-static double range(const double *a, long n)
+/* The range, and a thousandth of the largest magnitude: V^2/2 of a slow liquid is no scale of its
+ * heat. */
+static double carried(const double *u, long n)
 {
   double low = INFINITY, high = -INFINITY;
   for (long i = 0; i < n; i++) {
-    low = fmin(low, a[i]);
-    high = fmax(high, a[i]);
+    low = fmin(low, u[i]);
+    high = fmax(high, u[i]);
   }
-  return n ? high - low : 0;
+  return n ? fmax(high - low, 1e-3 * fmax(fabs(low), fabs(high))) : 0;
 }
 
 /* sqrt(|g| height): the extent of the fluid along g. */
@@ -63,7 +65,7 @@ void sph_sim_weights_scales(sph_sim *sim, int g, const sph_view *view)
   scale[SPH_VELOCITY] = V;
   scale[SPH_DENSITY] = rho * fmin(1, (V / c) * (V / c));
   double u = V * V / 2, gamma = group->eos.gamma;
-  if (view->u && !group->eos.thermal) u = fmax(u, range(view->u, view->n));
+  if (view->u && !group->eos.thermal) u = fmax(u, carried(view->u, view->n));
   scale[SPH_ENERGY] = scale[SPH_TOTAL_ENERGY] = u;
   scale[SPH_ENTROPY] = (gamma - 1) * pow(rho, 1 - gamma) * u;
   scale[SPH_TEMPERATURE] = u / group->eos.c_v;

@@ -8,7 +8,8 @@
  *     rho^H_ij = rho0 [(1 + x)^(1/gamma) - 1],  x = rho0 |g| z_ij/B = -gamma g.r_ij/c0^2
  *
  * rho^H is the difference of density of a column at rest, B = rho0 c0^2/gamma, z up; its power is
- * summed as a series, exact to rounding as long as |x| < 0.1 within the support (checked).
+ * summed as a series, exact to rounding where |x| < 0.02 and to 1e-9 of itself up to 0.1 within the
+ * support; more is refused.
  * sum V D = 0, but for Fourtakas' with gravity and gamma > 1, where rho^H_ij + rho^H_ji = O(x^2);
  * Antuono's vanishes for a linear density, also at free surfaces.  A wall has no
  * gradient of its own: it mirrors that of i.  The factor delta h c0 is applied to the sum

@@ -168,10 +168,18 @@ static int check_scalar(const sph_term_set *set, const sph_term *term, sph_error
   static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
   const sph_scalar *scalar = &term->scalar;
   size_t n = strlen(scalar->name);
-  if (n == 0 || n >= SPH_TERM_NAME_MAX || strspn(scalar->name, letters) != n)
+  if (n == 0 || n >= SPH_TERM_NAME_MAX || strspn(scalar->name, letters) != n ||
+      scalar->name[0] < 'a' || scalar->name[0] > 'z') /* data sets of snapshots: a capital */
     return sph_error_set(error, SPH_ERR_ARGUMENT,
-                         "term %s: scalar \"%.80s\"; right is 1 to %d of A-Z a-z 0-9 _", term->name,
-                         scalar->name, SPH_TERM_NAME_MAX - 1);
+                         "term %s: scalar \"%.80s\"; right is 1 to %d of A-Z a-z 0-9 _, the first "
+                         "of a-z",
+                         term->name, scalar->name, SPH_TERM_NAME_MAX - 1);
+  if (scalar->unit && (strlen(scalar->unit) >= SPH_TERM_NAME_MAX ||
+                       strcspn(scalar->unit, ",;\"[]\n\r\t") != strlen(scalar->unit)))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term %s: scalar %s: unit \"%.80s\"; right is a text like kg/m^3, without "
+                         ", ; \" [ ] and line ends",
+                         term->name, scalar->name, scalar->unit);
   if (sph_field_find(scalar->name) >= 0 || sph_term_set_scalar(set, scalar->name) >= 0)
     return sph_error_set(error, SPH_ERR_ARGUMENT,
                          "term %s: there is a field %s already; choose another name", term->name,

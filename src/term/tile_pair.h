@@ -52,6 +52,7 @@ typedef struct tile_constants {
   double t, h;           /* [s], [m] */
   const char *target, *source;
   int slots, scalars;
+  int isothermal;  /* the source is a wall with a temperature of its own */
   unsigned fields; /* bit of each field that any of them reads */
   unsigned adds;   /* enum sph_tile_add that any of them adds to */
   int terms;
@@ -87,16 +88,20 @@ BODY void tile_targets(int dim, const tile_constants *k, const double *record, l
   }
 }
 
-/* The fields of source j, in row n; a wall mirrors scalars. */
+/* The fields of source j, in row n; a wall mirrors scalars, energy and, unless it has one of its
+ * own, temperature. */
 BODY void tile_source(int dim, unsigned terms, const tile_constants *k, const particle *j,
                       const double *record, tile_rows *rows, int n)
 {
   if (k->fields & 1u << SPH_TILE_DENSITY) rows->j[SPH_TILE_DENSITY][n] = j->rho;
   if (k->fields & 1u << SPH_TILE_PRESSURE) rows->j[SPH_TILE_PRESSURE][n] = fluid_pressure(terms, j);
   if (k->fields & 1u << SPH_TILE_SOUND_SPEED) rows->j[SPH_TILE_SOUND_SPEED][n] = j->c;
-  if (k->fields & 1u << SPH_TILE_ENERGY) rows->j[SPH_TILE_ENERGY][n] = v_set(record[slot_u(dim)]);
+  const int wall = (terms & SPH_WALL) != 0;
+  if (k->fields & 1u << SPH_TILE_ENERGY)
+    rows->j[SPH_TILE_ENERGY][n] = wall ? rows->i[SPH_TILE_ENERGY][n] : v_set(record[slot_u(dim)]);
   if (k->fields & 1u << SPH_TILE_TEMPERATURE)
-    rows->j[SPH_TILE_TEMPERATURE][n] = v_set(record[slot_T(dim)]);
+    rows->j[SPH_TILE_TEMPERATURE][n] =
+        wall && !k->isothermal ? rows->i[SPH_TILE_TEMPERATURE][n] : v_set(record[slot_T(dim)]);
   for (int s = 0; s < k->scalars; s++) {
     rows->ds[s][n] = v_set(0);
     if (k->fields >> (SPH_TILE_SCALAR + s) & 1)

@@ -59,12 +59,12 @@ static void molteni(const sph_term *term, const sph_tile *t)
     t->drho[k] += factor * t->V[k] * (t->i[0][k] - t->j[0][k]) * t->F[k];
 }
 
-/* Cleary & Monaghan (1999), fluids only; ctx: kappa. */
+/* Cleary & Monaghan (1999); walls: adiabatic below, with a temperature above; ctx: kappa. */
 static void conduction(const sph_term *term, const sph_tile *t)
 {
   const double kappa = *(const double *)term->ctx;
   const double *rho_i = t->i[0], *T_i = t->i[1], *T_j = t->j[1];
-  for (long k = 0; k < t->n && !t->wall; k++)
+  for (long k = 0; k < t->n; k++)
     t->du[k] += t->V[k] / rho_i[k] * 2 * kappa * (T_i[k] - T_j[k]) * t->F[k];
 }
 
@@ -154,7 +154,7 @@ static scene_def scene_number(int k, int thermal)
                    .laminar = 1,
                    .fluids = 1,
                    .no_slip = 1,
-                   .walls = k % 2,
+                   .walls = k % 3,
                    .random = k / 3 % 2,
                    .seed = (unsigned long)(40 + k)};
   def.n = def.dim == 1 ? 40 : def.dim == 2 ? 14 : 9;

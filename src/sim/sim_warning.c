@@ -1,0 +1,71 @@
+/* What a simulation has that does nothing, or lacks that most have: told, not refused. */
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "sim_data.h"
+
+/* Warning number `wanted` of those that are found one after another. */
+typedef struct finder {
+  int wanted, found;
+  char *text;
+  size_t size;
+} finder;
+
+static void found(finder *f, const char *format, ...) SPH_PRINTF(2, 3);
+static void found(finder *f, const char *format, ...)
+{
+  va_list arguments;
+  if (f->found++ != f->wanted || !f->size) return;
+  va_start(arguments, format);
+  vsnprintf(f->text, f->size, format, arguments);
+  va_end(arguments);
+}
+
+static void find_in_terms(finder *f, const sph_term_set *terms)
+{
+  const double *g = terms->g;
+  if (!(terms->bits & SPH_CONTINUITY) && !terms->summed && !terms->pairs)
+    found(f, "nothing changes the density: no continuity, no summation");
+  if (!(terms->bits & SPH_PRESSURE_FORCE) && !terms->pairs) found(f, "no pressure force");
+  if ((terms->bits & SPH_FOURTAKAS) && g[0] == 0 && g[1] == 0 && g[2] == 0)
+    found(f, "delta fourtakas without gravity is molteni");
+  if ((terms->bits & SPH_XSPH) && terms->epsilon == 0)
+    found(f, "xsph with epsilon = 0 does nothing");
+}
+
+static void find_in_wall(finder *f, const sph_sim *sim, const sph_group *wall)
+{
+  const unsigned bits = sim->terms.bits;
+  if (wall->boundary.temperature > 0 && !(bits & SPH_CONDUCTION))
+    found(f, "wall %s has a temperature, but there is no conduction", wall->name);
+  if (wall->boundary.no_slip && !(bits & SPH_VISCOUS) && !sim->terms.pairs)
+    found(f, "wall %s is no-slip, but there is no viscous term to feel it", wall->name);
+  if (wall->viscosity > 0)
+    found(f, "wall %s has a viscosity, which is not used: fluids take their own", wall->name);
+}
+
+static void find_in_fluid(finder *f, const sph_sim *sim, const sph_group *fluid)
+{
+  const unsigned bits = sim->terms.bits, laminar = SPH_MORRIS | SPH_MCG;
+  if (fluid->viscosity > 0 && !(bits & laminar))
+    found(f, "%s has a viscosity, but there is no viscosity-laminar", fluid->name);
+  if (fluid->viscosity == 0 && (bits & laminar))
+    found(f, "%s has no viscosity beside viscosity-laminar", fluid->name);
+  if (fluid->conductivity > 0 && !(bits & SPH_CONDUCTION))
+    found(f, "%s has a conductivity, but there is no conduction", fluid->name);
+  if (fluid->conductivity == 0 && (bits & SPH_CONDUCTION))
+    found(f, "%s has no conductivity beside conduction", fluid->name);
+}
+
+int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size)
+{
+  finder f = {k, 0, text, text ? size : 0};
+  if (!sim || k < 0) return 0;
+  find_in_terms(&f, &sim->terms);
+  for (int g = 0; g < sim->groups; g++)
+    if (sim->group[g]->wall)
+      find_in_wall(&f, sim, sim->group[g]);
+    else
+      find_in_fluid(&f, sim, sim->group[g]);
+  return f.found > k;
+}
