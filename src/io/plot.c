@@ -28,9 +28,11 @@ typedef struct picture {
   double lo[2], hi[2]; /* of what is drawn [m] */
   double from, to;     /* of the colours, SI */
   double unit;         /* SI value of the unit that is drawn: 1000 for kPa */
-  char label[120];     /* "pressure [kPa]" */
-  int columns, rows;   /* of panels */
-  double panel[2];     /* size of one [pixels] */
+  double length;       /* and that of the axes: 0.001 for mm */
+  const char *length_unit;
+  char label[120];   /* "pressure [kPa]" */
+  int columns, rows; /* of panels */
+  double panel[2];   /* size of one [pixels] */
 } picture;
 
 static void bounds(const picture *p, int part, int d, double *lo, double *hi)
@@ -119,6 +121,10 @@ static void choose_label(picture *p)
   const char *unit = p->frame[0].unit, *prefix = "";
   double largest = fmax(fabs(p->from), fabs(p->to));
   p->unit = 1;
+  if (!strcmp(unit, "m/s") && largest < 1e-2) {
+    p->unit = largest < 1e-5 ? 1e-6 : 1e-3;
+    prefix = largest < 1e-5 ? "u" : "m";
+  }
   if ((!strcmp(unit, "Pa") || !strcmp(unit, "J/kg")) && largest >= 1e3) {
     p->unit = largest >= 1e6 ? 1e6 : 1e3;
     prefix = largest >= 1e6 ? "M" : "k";
@@ -127,6 +133,16 @@ static void choose_label(picture *p)
   for (char *c = name; *c; c++)
     if (*c == '_') *c = ' ';
   snprintf(p->label, sizeof p->label, *unit ? "%s [%s%s]" : "%s", name, prefix, unit);
+}
+
+/* Of the axes: no tic has more than a few digits. */
+static void choose_length(picture *p)
+{
+  double far = 0;
+  for (int k = 0; k < (p->dim == 1 ? 1 : 2); k++)
+    far = fmax(far, fmax(fabs(p->lo[k]), fabs(p->hi[k])));
+  p->length = far < 3e-5 ? 1e-6 : far < 3e-2 ? 1e-3 : 1;
+  p->length_unit = far < 3e-5 ? "um" : far < 3e-2 ? "mm" : "m";
 }
 
 /* As many columns as bring the sheet nearest to 5 : 4; panels as large as the sheet allows. */
@@ -195,8 +211,8 @@ static void add_head(const picture *p, sph_text *script)
   double size[2];
   sheet(p, size);
   double span = size[1] - bottom - top;
-  sph_text_add(script, "radius = %.6g # of a particle [m]\n",
-               (squares(p) ? 0.68 : 0.55) * p->frame[0].spacing);
+  sph_text_add(script, "length = %g # of the axes [m]\nradius = %.6g/length # of a particle\n",
+               p->length, (squares(p) ? 0.68 : 0.55) * p->frame[0].spacing);
   sph_text_add(script, "unit = %g\n\n%s", p->unit, palette);
   sph_text_add(script, "set cbrange [%.9g:%.9g]\nset cblabel ", p->from / p->unit, p->to / p->unit);
   sph_text_gnuplot_string(script, p->label);
@@ -204,13 +220,13 @@ static void add_head(const picture *p, sph_text *script)
                tics((p->to - p->from) / p->unit, span, 70));
   sph_text_add(script, "\nset colorbox vertical user origin screen %.4f, %.4f size %.4f, %.4f\n",
                1 - (right - 22) / size[0], bottom / size[1], 16 / size[0], span / size[1]);
-  sph_text_add(script, "set xrange [%.6g:%.6g]\n", p->lo[0], p->hi[0]);
+  sph_text_add(script, "set xrange [%.6g:%.6g]\n", p->lo[0] / p->length, p->hi[0] / p->length);
   if (p->dim == 1) {
     double more = 0.05 * (p->to - p->from);
     sph_text_add(script, "unset colorbox\nset grid lc rgb '#dddddd'\nset yrange [%.9g:%.9g]\n",
                  (p->from - more) / p->unit, (p->to + more) / p->unit);
   } else {
-    sph_text_add(script, "set yrange [%.6g:%.6g]\n", p->lo[1], p->hi[1]);
+    sph_text_add(script, "set yrange [%.6g:%.6g]\n", p->lo[1] / p->length, p->hi[1] / p->length);
   }
   sph_text_add(script, "set multiplot\n");
 }
@@ -228,21 +244,17 @@ static void add_axes(const picture *p, int k, sph_text *script)
                (y + panel_y) / size[1]);
   sph_text_add(script, "set label 1 't = %.4g s' at graph 0, 1 offset 0, 0.8 left\n",
                p->frame[k].time);
-  sph_text_add(script, "set xtics %.6g format '%s'; set xlabel '%s'\n",
-               tics(p->hi[0] - p->lo[0], panel_x, 70), lowest ? "%g" : "",
-               !lowest          ? ""
-               : p->across == 0 ? "x [m]"
-                                : "y [m]");
+  sph_text_add(script, "set xtics %.6g format '%s'; set xlabel '",
+               tics((p->hi[0] - p->lo[0]) / p->length, panel_x, 70), lowest ? "%g" : "");
+  if (lowest) sph_text_add(script, "%c [%s]", "xyz"[p->across], p -> length_unit);
+  sph_text_add(script, "'\nset format y '%s'; set ylabel ", column ? "" : "%g");
   if (p->dim == 1) {
-    sph_text_add(script, "set ylabel ");
-    sph_text_gnuplot_string(script, p->label);
+    sph_text_gnuplot_string(script, column ? "" : p->label);
     sph_text_add(script, "\n");
   } else {
-    sph_text_add(script, "set ytics %.6g; set ylabel '%s'\n",
-                 tics(p->hi[1] - p->lo[1], panel_y, 28),
-                 column       ? ""
-                 : p->up == 1 ? "y [m]"
-                              : "z [m]");
+    sph_text_add(script, column ? "''" : "'%c [%s]'", "xyz"[p->up], p -> length_unit);
+    sph_text_add(script, "; set ytics %.6g\n",
+                 tics((p->hi[1] - p->lo[1]) / p->length, panel_y, 28));
   }
 }
 
@@ -253,22 +265,25 @@ static void add_panel(const picture *p, int k, int *index, sph_text *script, sph
   add_axes(p, k, script);
   if (k == 1) sph_text_add(script, "unset colorbox\n");
   if (p->dim > 1 && add_block(p, k, SPH_WALLS, data) > 0) {
-    sph_text_add(script,
-                 "plot data index %d using 1:2:%s with %s lc rgb '#b4b4b4' fs solid "
-                 "noborder notitle",
-                 (*index)++, radii, shape);
+    sph_text_add(
+        script,
+        "plot data index %d using ($1/length):($2/length):%s with %s lc rgb '#b4b4b4' fs solid "
+        "noborder notitle",
+        (*index)++, radii, shape);
     separator = ", \\\n ";
   }
   if (add_block(p, k, SPH_FLUIDS, data) == 0)
     sph_text_add(script, separator[0] == 'p' ? "plot NaN notitle\n" : "\n");
   else if (p->dim == 1)
-    sph_text_add(script,
-                 "%s data index %d using 1:($3/unit) with points pt 7 ps 0.5 lc rgb '#26828e' "
-                 "notitle\n",
-                 separator, (*index)++);
+    sph_text_add(
+        script,
+        "%s data index %d using ($1/length):($3/unit) with points pt 7 ps 0.5 lc rgb '#26828e' "
+        "notitle\n",
+        separator, (*index)++);
   else
     sph_text_add(script,
-                 "%s data index %d using 1:2:%s:($3/unit) with %s lc palette fs solid noborder "
+                 "%s data index %d using ($1/length):($2/length):%s:($3/unit) with %s lc palette "
+                 "fs solid noborder "
                  "notitle\n",
                  separator, (*index)++, radii, shape);
 }
@@ -288,6 +303,7 @@ static int choose(picture *p, sph_error *error)
   choose_window(p);
   choose_range(p, value);
   choose_label(p);
+  choose_length(p);
   choose_layout(p);
   sph_memory_free(value);
   return SPH_OK;
