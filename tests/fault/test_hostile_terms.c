@@ -371,13 +371,56 @@ static void no_group(void **state)
   assert_refused(s, SPH_ERR_STATE, "term xsph: terms are added before the run");
 }
 
+/* Warnings name what does nothing, in this order; a sound set-up has none. */
+static void warned(sph_sim *sim, const char *const *text, int n)
+{
+  char found[200];
+  for (int k = 0; k < n; k++) {
+    assert_int_equal(sph_sim_warning(sim, k, found, sizeof found), 1);
+    assert_string_equal(found, text[k]);
+  }
+  assert_int_equal(sph_sim_warning(sim, n, found, sizeof found), 0);
+}
+
+static void warnings(void **state)
+{
+  (void)state;
+  static const char *const bare[] = {
+      "nothing changes the density: no continuity, no summation",
+      "no pressure force",
+      "delta fourtakas without gravity is molteni",
+      "water has a viscosity, but there is no viscosity-laminar",
+      "water has a conductivity, but there is no conduction",
+      "wall floor has a temperature, but there is no conduction",
+      "wall floor is no-slip, but there is no viscous term to feel it",
+      "wall floor has a viscosity, which is not used: fluids take their own"};
+  subject s = liquid();
+  sph_boundary boundary = sph_boundary_adami_no_slip();
+  boundary.temperature = 300;
+  sph_group_set_boundary(s.floor, boundary);
+  sph_group_set_viscosity(s.water, 1);
+  sph_group_set_viscosity(s.floor, 1);
+  sph_group_set_conductivity(s.water, 1);
+  sph_sim_add_term(s.sim, sph_term_delta("fourtakas", 0.1));
+  warned(s.sim, bare, 8);
+  assert_int_equal(sph_sim_warning(NULL, 0, NULL, 0), 0);
+  assert_int_equal(sph_sim_warning(s.sim, 0, NULL, 0), 1);
+  sph_sim_add_term(s.sim, sph_term_continuity());
+  sph_sim_add_term(s.sim, sph_term_pressure());
+  sph_sim_add_term(s.sim, sph_term_gravity((double[]){0, -1, 0}));
+  sph_sim_add_term(s.sim, sph_term_viscosity_laminar("mcg"));
+  sph_sim_add_term(s.sim, sph_term_conduction());
+  warned(s.sim, bare + 7, 1);
+  sph_sim_free(s.sim);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(parameters), cmocka_unit_test(twice),    cmocka_unit_test(rows),
       cmocka_unit_test(unfit),      cmocka_unit_test(energies), cmocka_unit_test(temperatures),
       cmocka_unit_test(scalars),    cmocka_unit_test(too_many), cmocka_unit_test(reads),
-      cmocka_unit_test(no_group),
+      cmocka_unit_test(no_group),   cmocka_unit_test(warnings),
   };
   return cmocka_run_group_tests_name("hostile terms", tests, NULL, NULL);
 }
