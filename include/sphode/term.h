@@ -35,8 +35,8 @@ enum { SPH_TILE_READS = 8, SPH_SCALARS_MAX = 8 };
 /* Some pairs of particles of one group (i) with particles of another or the same (j): what a pair
  * term reads and adds to.  Every array is [n], one entry a pair; loop over k = 0 .. n - 1.  Some
  * pairs lie outside the support: F is zero there, and what is added must be too, as it is if it is
- * proportional to F.  A particle also meets itself, with r = v = 0.  The loop over k is all there is
- * to vectorise: compile it with -O3 -march=native. */
+ * proportional to F.  A particle also meets itself, with r = v = 0.  The loop over k is all there
+ * is to vectorise: compile it with -O3 -march=native. */
 typedef struct sph_tile {
   int dim;
   /* The sources are a wall: its scalars, energy and temperature mirror those of i, so that nothing

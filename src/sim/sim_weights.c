@@ -2,8 +2,8 @@
  *   x: h;  v: V = max(user's, sqrt(g height), 0.01 c0, |v| at the start);
  *   rho: rho0 (V/c0)^2;  u, e: V^2/2;  A: (gamma - 1) rho^(1-gamma) V^2/2;  T: V^2/(2 c_v)
  * and for a thermal one c0 = mean sound speed, rho0 = mean density; for a gas (no c0) V = c0.  An
- * energy that is carried along: the range of u at the start or a thousandth of u, if that is more.  Scalars: as their
- * terms say. */
+ * energy that is carried along: the range of u at the start or a thousandth of u, if that is more.
+ * Scalars: as their terms say. */
 #include "sim_weights.h"
 
 #include <math.h>
