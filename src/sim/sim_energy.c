@@ -139,7 +139,8 @@ int sph_sim_energy_start(sph_group *group)
     status = sph_group_data_own(group, SPH_TEMPERATURE, &group->sim->error);
   if (status || field < 0 || field == SPH_ENERGY) return status;
   status = sph_sim_energy_derive(group, NULL, field);
-  for (long i = 0; !status && field == SPH_TEMPERATURE && i < group->n; i++)
+  int carried = field == SPH_TEMPERATURE && !group->eos.thermal; /* else the eos knows better */
+  for (long i = 0; !status && carried && i < group->n; i++)
     if (!(group->own[field][0][i] > 0))
       status = sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
                             "group %s, particle %ld: starts at %g K; right is > 0: set its "
