@@ -63,7 +63,7 @@ static int frames(sph_sim *sim)
                           outlet->output.name ? outlet->output.name : "", outlet->output.interval,
                           now - last);
     double slack = 1e-9 * outlet->output.interval; /* a frame at the end is not lost to rounding */
-    for (double t = due(outlet); !status && t <= now + slack; t = due(outlet)) {
+    for (double t = due(outlet); !status && isfinite(t) && t <= now + slack; t = due(outlet)) {
       if (t < now) {
         status = sph_integrator_interpolate(sim->integrator, t, sim->frame);
         show(sim, t, sim->frame);

@@ -46,6 +46,31 @@ static void lattice(void **state)
     }
 }
 
+/* Walls count with the same calibrated volume: the liquid beside them is at rest, too. */
+static void between_walls(void **state)
+{
+  (void)state;
+  for (int dim = 1; dim <= 3; dim++) {
+    int up = dim - 1;
+    const double lo[3] = {0}, hi[] = {1, 1, 1};
+    sph_sim_def def = {.dim = dim, .dx = 0.1, .h_over_dx = 1.5};
+    for (int d = 0; d < up; d++) def.periodic[d] = 1, def.length[d] = 1;
+    sph_sim *sim = sph_sim_create(&def);
+    sph_group *water = sph_group_box(sim, "water", lo, hi, rho0);
+    sph_group *walls = sph_group_create(sim, "walls", "wall");
+    sph_group_add_layers(walls, lo, hi, dim == 3 ? "x- x+ y- y+" : dim == 2 ? "x- x+" : "", rho0);
+    sph_group_set_eos(water, sph_eos_tait(rho0, c0, 7));
+    sph_group_set_boundary(walls, sph_boundary_adami());
+    sph_sim_add_term(sim, sph_term_summation(1));
+    sph_sim_add_term(sim, sph_term_pressure_form("s"));
+    if (sph_sim_evaluate(sim) != SPH_OK) fail_msg("%s", sph_sim_error(sim));
+    const double *rho = sph_group_read(water, "density", 0);
+    for (long i = 0; i < sph_group_count(water); i++)
+      if (!(fabs(rho[i] / rho0 - 1) <= 1e-12)) fail_msg("%dD: density %.17g", dim, rho[i]);
+    sph_sim_free(sim);
+  }
+}
+
 static void stays_at_rest(void **state)
 {
   (void)state;
@@ -146,6 +171,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lattice),
+      cmocka_unit_test(between_walls),
       cmocka_unit_test(stays_at_rest),
       cmocka_unit_test(sound_wave),
   };

@@ -90,6 +90,13 @@ static void fill(scene *s, const scene_def *def, oracle_particle *it, unsigned l
   if (def->thermal || def->laminar) it->u = between(state, 5, 25);
 }
 
+/* In half of all scenes the lid has a conductivity of its own; else it takes that of the fluid. */
+static double lid(const scene_def *def)
+{
+  unsigned long dice = def->seed;
+  return scene_random(&dice) < 0.5 ? 60 : 0;
+}
+
 static void groups(scene *s, const scene_def *def)
 {
   oracle_eos tait = {ORACLE_TAIT, 1000, 10, 7, 0, 0}, linear = {ORACLE_LINEAR, 1000, 12, 1, 500, 0};
@@ -104,7 +111,7 @@ static void groups(scene *s, const scene_def *def)
     if (def->laminar) {
       group->eos.c_v = g == 1 ? 0.7 : 0.5;
       group->viscosity = g == 1 ? 3 : 2;
-      group->conductivity = g == 1 ? 40 : g == 3 ? 0 : 15;
+      group->conductivity = g == 1 ? 40 : g == 3 ? lid(def) : 15;
       group->temperature = g == 3 ? 22 : 0;
     }
     for (int k = 0; k < def->dim && g == 3; k++) {

@@ -26,7 +26,7 @@ static int note(void *ctx, struct sph_sim *sim, sph_error *error)
   (void)error;
   if (r->frames < 100) r->time[r->frames] = sph_sim_time(sim);
   r->frames++;
-  return SPH_OK;
+  return r->frames < 1000 ? SPH_OK : SPH_ERR_STATE; /* no test here has that many */
 }
 
 /* Water over a floor, at rest. */
@@ -66,6 +66,20 @@ static void frames_between_runs(void **state)
   assert_true(early.time[3] > begin && early.time[3] < begin + 0.02);
   for (int k = 3; k < early.frames; k++)
     assert_true(fabs(early.time[k] / 0.02 - round(early.time[k] / 0.02)) < 1e-9);
+  sph_sim_free(sim);
+}
+
+/* An infinite interval: frames at the start and at the end of each run. */
+static void frames_at_the_ends(void **state)
+{
+  (void)state;
+  record ends = {0};
+  sph_sim *sim = pool();
+  sph_sim_add_output(sim, (sph_output){.interval = INFINITY, .frame = note, .ctx = &ends});
+  assert_int_equal(sph_sim_run(sim, 0.05), SPH_OK);
+  assert_int_equal(sph_sim_run(sim, 0.08), SPH_OK);
+  assert_int_equal(ends.frames, 3);
+  assert_true(ends.time[0] == 0 && ends.time[1] == 0.05 && ends.time[2] == 0.08);
   sph_sim_free(sim);
 }
 
@@ -213,6 +227,7 @@ static void periodic_and_scalars(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(frames_between_runs),
+                                     cmocka_unit_test(frames_at_the_ends),
                                      cmocka_unit_test(moved_by_hand),
                                      cmocka_unit_test(gas_between_walls),
                                      cmocka_unit_test(gas_hits_a_wall),
