@@ -6,7 +6,7 @@
 
 #include "prog.h"
 
-enum { DETAILS = 12 };
+enum { DETAILS = 12, COLUMNS = 100, INDENT = 2 };
 
 /* One row of a list: names and texts of its columns. */
 typedef struct row {
@@ -193,6 +193,32 @@ static int width(const list *l, int d)
   return (int)most;
 }
 
+/* Where to break a text longer than room: at the last space that fits, or, where there is one past
+ * the middle, at the last after a comma or before "or": formulas stay whole. */
+static size_t line_end(const char *text, size_t room)
+{
+  size_t last = 0, good = 0;
+  for (size_t n = 1; n <= room; n++) {
+    if (text[n] != ' ') continue;
+    last = n;
+    if (strchr(",;", text[n - 1]) || !strncmp(text + n, " or ", 4)) good = n;
+  }
+  return good > room / 2 ? good : last ? last : strcspn(text, " ");
+}
+
+/* In lines of at most COLUMNS, indented. */
+static void print_wrapped(const char *text)
+{
+  const size_t room = COLUMNS - INDENT;
+  while (*text) {
+    size_t n = strlen(text);
+    if (n > room) n = line_end(text, room);
+    printf("%*s%.*s\n", INDENT, "", (int)n, text);
+    text += n;
+    text += strspn(text, " ");
+  }
+}
+
 static void print_list(const list *l)
 {
   row r = {0};
@@ -202,9 +228,13 @@ static void print_list(const list *l)
   for (int d = 0; d < DETAILS && l->detail[d]; d++) printf("  %*s", wide[d], l->detail[d]);
   if (l->detail[0]) putchar('\n');
   for (int k = 0; l->get(k, &r); k++) {
-    printf("%-*s", first, r.name);
+    if (l->detail[0])
+      printf("%-*s", first, r.name);
+    else
+      fputs(r.name, stdout);
     for (int d = 0; d < DETAILS && l->detail[d]; d++) printf("  %*s", wide[d], r.detail[d]);
-    printf("%s%s\n", r.formula ? "  " : "", r.formula ? r.formula : "");
+    putchar('\n');
+    if (r.formula) print_wrapped(r.formula);
   }
 }
 

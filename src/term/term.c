@@ -10,17 +10,22 @@ static const struct {
     {"summation", "rho_i = sum m_j W_ij instead of continuity"},
     {"pressure", "a_i = -sum m_j (p_i + p_j)/(rho_i rho_j) grad W (c2) or "
                  "-sum m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W (s), (phi)"},
-    {"viscosity-artificial", "a_i = -sum m_j Pi_ij grad W, Pi = (-alpha c mu + beta mu^2)/rho"},
+    {"viscosity-artificial", "a_i = -sum m_j Pi_ij grad W, Pi = (-alpha c mu + beta mu^2)/rho, "
+                             "mu = min(h v_ij.r/(r^2 + 0.01 h^2), 0)"},
     {"viscosity-signal",
      "the same with Pi = -alpha/2 (c_i + c_j - beta w) w/rho, w = v_ij.r/r < 0"},
     {"viscosity-laminar", "a_i = sum m_j (eta_i + eta_j)/(rho_i rho_j) F v_ij (morris) or "
-                          "2 (d + 2) sum m_j eta_ij/(rho_i rho_j) v_ij.r/r^2 grad W (mcg)"},
+                          "2 (d + 2) sum m_j eta_ij/(rho_i rho_j) v_ij.r/r^2 grad W (mcg), "
+                          "eta_ij = 2 eta_i eta_j/(eta_i + eta_j)"},
     {"conductivity-artificial", "du_i = sum m_j/rho_ij alpha v_sig (u_i - u_j) r F"},
     {"conduction", "du_i = sum m_j/(rho_i rho_j) 4 kappa_i kappa_j/(kappa_i + kappa_j) "
                    "(T_i - T_j) F"},
     {"heat-source", "du_i = Q(x_i, t)"},
     {"xsph", "d r_i/dt = v_i - epsilon sum m_j/rho_ij v_ij W_ij"},
-    {"delta", "d rho_i/dt += delta h c0 sum V_j psi_ij.grad W (molteni, antuono, fourtakas)"},
+    {"delta", "d rho_i/dt += delta h c0 sum V_j psi_ij.grad W, psi_ij = "
+              "2 (rho_j - rho_i) (r_j - r_i)/r^2 (molteni), "
+              "the same less <grad rho>_i + <grad rho>_j (antuono) or with "
+              "rho_j - rho_i - rho^H_ij (fourtakas)"},
     {"gravity", "a_i = g"},
     {"harmonic", "a_i = -omega^2 x_i"},
 };

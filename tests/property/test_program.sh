@@ -82,11 +82,21 @@ ok $? "kernels as in the table of the literature"
 run 0 "$sphode" info kernels && ! grep -q '.\{101\}' out && grep -q "^wendland-c2  *2 h  *C2  *1.5  *24  *92 " out
 ok $? "the table of kernels fits 100 columns and has the neighbors of wendland-c2"
 good=0
-for list in kernels eos terms integrators boundaries; do
+for list in kernels eos materials terms integrators boundaries; do
   run 0 "$sphode" info $list && [[ -s out ]] || good=1
   run 0 "$sphode" info $list --json && { ! command -v python3 >/dev/null || python3 -m json.tool <out >/dev/null; } || good=1
 done
 ok $good "each list, for people and as JSON"
+# Nothing is lost where lines are broken: the words are those of the JSON.
+good=0
+for list in eos materials terms integrators boundaries; do
+  run 0 "$sphode" info $list && ! grep -q '.\{101\}' out || good=1
+  tr -s ' \n' ' ' <out >words
+  "$sphode" info $list --json | sed -n 's/.*"\(formula\|about\)": "\(.*\)"}.*/\2/p' >texts
+  while IFS= read -r text; do grep -qF " $text " words || { good=1; echo "# $text"; }; done <texts
+  [[ $list == integrators || -s texts ]] || good=1
+done
+ok $good "lists fit 100 columns and have each word of the JSON"
 "$sphode" info kernels --json | grep -q '"name": "wendland-c2", "smoothness": "C2", "support/h": 2, "h/dx": 1\.' &&
   "$sphode" info integrators --json | grep -q '"name": "leapfrog", "order": 2, "stages": 1, "error-control": false, "stability": 0\.'
 ok $? "numbers and flags in JSON are none of its strings"

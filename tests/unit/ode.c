@@ -127,9 +127,9 @@ static int weights(N_Vector y, N_Vector weight, void *ctx)
 static int limits(double t, N_Vector y, sph_step_limit *limit, void *ctx)
 {
   const ode *o = ctx;
-  (void)t, (void)y;
+  (void)y;
   for (int k = 0; k < SPH_BOUND_COUNT; k++)
-    if (o->limit[k] > 0) limit->dt[k] = o->limit[k];
+    if (o->limit[k] > 0) limit->dt[k] = o->limit[k] * (1 + o->breathe * sin(t));
   return SPH_OK;
 }
 

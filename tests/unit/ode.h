@@ -22,6 +22,7 @@ typedef struct ode {
   double reject_above;           /* a step longer than this is not admissible [s]; 0: any is */
   double time;                   /* of the last accepted state */
   double limit[SPH_BOUND_COUNT]; /* 0: none */
+  double breathe;                /* limits vary: 1 + breathe sin t times as large */
 } ode;
 
 /* Ellipse of eccentricity 0.3 around the origin, period 2 pi: exact after whole periods. */
