@@ -36,6 +36,8 @@ static sph_sim *lattice(int dim, int n, double h_over_dx, sph_term term)
   sph_group_set_viscosity(oil, eta);
   sph_group_set_conductivity(oil, kappa);
   sph_group_set_energy(oil, "temperature");
+  double *u = sph_group_write(oil, "energy", 0);
+  for (long i = 0; u && i < sph_group_count(oil); i++) u[i] = 300 * c_v;
   sph_sim_add_term(sim, term);
   return sim;
 }
