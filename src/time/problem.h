@@ -15,6 +15,25 @@ typedef struct sph_step_limit {
   double dt[SPH_BOUND_COUNT];
 } sph_step_limit;
 
+/* What of f is evaluated: the parts that add up to f, and two that do so for separable problems. */
+enum sph_piece {
+  SPH_PIECE_EXPLICIT, /* also the slow part of multirate schemes */
+  SPH_PIECE_IMPLICIT,
+  SPH_PIECE_FAST,
+  SPH_PIECE_DRIFT, /* of a separable f: the rates of positions, others zero */
+  SPH_PIECE_KICK,  /* the rates of all others, those of positions zero */
+  SPH_PIECE_COUNT
+};
+
+/* One implicit stage: z = known + gamma f_implicit(t, z). */
+typedef struct sph_stage {
+  double t;
+  double gamma;     /* > 0 [s] */
+  double tolerance; /* of the weighted norm (sph_problem.weights) of the error of z */
+  N_Vector known;   /* as given */
+  N_Vector z;       /* comes as a guess, to be the solution */
+} sph_stage;
+
 typedef struct sph_problem {
   void *ctx;
   int threads;
@@ -26,7 +45,17 @@ typedef struct sph_problem {
                 void *ctx); /* after an evaluation at (t, y); NULL: none */
   int (*admissible)(double t, N_Vector y,
                     void *ctx); /* after a step; SPH_RETRY: repeat with half of it; NULL: always */
-  sph_error *error;             /* where failures are recorded; borrowed */
+  /* f piece by piece, for schemes that need that; NULL: f is one piece. */
+  int (*rhs_piece)(int piece, double t, N_Vector y, N_Vector ydot, void *ctx);
+  /* Solves an implicit stage, to its tolerance; NULL: schemes find z by evaluations of f_implicit
+   * alone. */
+  int (*solve)(const sph_stage *stage, void *ctx);
+  /* A bound of the largest |eigenvalue| of df/dy at (t, y) [1/s], for stabilised schemes. */
+  int (*dominant)(double t, N_Vector y, double *lambda, void *ctx);
+  /* A quantity that f conserves, and its derivative with respect to y, for relaxation. */
+  int (*energy)(N_Vector y, double *energy, void *ctx);
+  int (*energy_gradient)(N_Vector y, N_Vector gradient, void *ctx);
+  sph_error *error; /* where failures are recorded; borrowed */
 } sph_problem;
 
 #endif
