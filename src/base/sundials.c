@@ -10,6 +10,52 @@
 #endif
 
 #if SPH_SUNDIALS_NUMBER >= 70000
+#define HANDLER(Step) /* of the context */
+#else
+#define HANDLER(Step) .set_err_handler_fn = Step##SetErrHandlerFn,
+#endif
+#if SPH_SUNDIALS_NUMBER >= 60700
+#define CONTROLLER(Step) .set_adapt_controller = SPH_SUNDIALS(Step, SetAdaptController),
+#else
+#define CONTROLLER(Step) \
+  .set_error_bias = Step##SetErrorBias, .set_adaptivity_fn = Step##SetAdaptivityFn,
+#endif
+#define SHARED(Step)                                                           \
+  .free = SPH_SUNDIALS(Step, Free), .reset = SPH_SUNDIALS(Step, Reset),        \
+  .evolve = SPH_SUNDIALS(Step, Evolve), .get_dky = SPH_SUNDIALS(Step, GetDky), \
+  .set_user_data = SPH_SUNDIALS(Step, SetUserData),                            \
+  .wf_tolerances = SPH_SUNDIALS(Step, WFtolerances),                           \
+  .set_interpolant_type = SPH_SUNDIALS(Step, SetInterpolantType),              \
+  .set_interpolant_degree = SPH_SUNDIALS(Step, SetInterpolantDegree),          \
+  .set_stop_time = SPH_SUNDIALS(Step, SetStopTime),                            \
+  .set_fixed_step = SPH_SUNDIALS(Step, SetFixedStep)
+#define ADAPTIVE(Step)                                              \
+  .set_init_step = SPH_SUNDIALS(Step, SetInitStep),                 \
+  .get_current_step = SPH_SUNDIALS(Step, GetCurrentStep),           \
+  .get_num_err_test_fails = SPH_SUNDIALS(Step, GetNumErrTestFails), \
+  .set_stability_fn = SPH_SUNDIALS(Step, SetStabilityFn),           \
+  .set_cfl_fraction = SPH_SUNDIALS(Step, SetCFLFraction),           \
+  .set_safety_factor = SPH_SUNDIALS(Step, SetSafetyFactor),         \
+  .set_max_growth = SPH_SUNDIALS(Step, SetMaxGrowth),               \
+  .set_max_first_growth = SPH_SUNDIALS(Step, SetMaxFirstGrowth),    \
+  .set_min_reduction = SPH_SUNDIALS(Step, SetMinReduction),         \
+  .set_fixed_step_bounds = SPH_SUNDIALS(Step, SetFixedStepBounds),  \
+  .set_max_efail_growth = SPH_SUNDIALS(Step, SetMaxEFailGrowth),    \
+  .set_small_num_efails = SPH_SUNDIALS(Step, SetSmallNumEFails),    \
+  .set_max_err_test_fails = SPH_SUNDIALS(Step, SetMaxErrTestFails)
+
+const sph_sundials_calls sph_sundials_erk = {HANDLER(ERKStep) SHARED(ERKStep),
+                                             CONTROLLER(ERKStep) ADAPTIVE(ERKStep)};
+const sph_sundials_calls sph_sundials_ark = {HANDLER(ARKStep) SHARED(ARKStep),
+                                             CONTROLLER(ARKStep) ADAPTIVE(ARKStep)};
+#if SPH_SUNDIALS_NUMBER >= 70100
+const sph_sundials_calls sph_sundials_mri = {SHARED(MRIStep),
+                                             CONTROLLER(MRIStep) ADAPTIVE(MRIStep)};
+#else
+const sph_sundials_calls sph_sundials_mri = {HANDLER(MRIStep) SHARED(MRIStep)};
+#endif
+
+#if SPH_SUNDIALS_NUMBER >= 70000
 
 static int create(SUNContext *context)
 {
@@ -31,9 +77,10 @@ static void hear(int line, const char *function, const char *file, const char *t
   listener->listen(text, listener->ctx);
 }
 
-int sph_sundials_listen(void *memory, SUNContext context, sph_sundials_listener *listener)
+int sph_sundials_listen(const sph_sundials_calls *call, void *memory, SUNContext context,
+                        sph_sundials_listener *listener)
 {
-  (void)memory;
+  (void)call, (void)memory;
   return SUNContext_PushErrHandler(context, hear, listener);
 }
 
@@ -50,10 +97,11 @@ static void hear(int code, const char *module, const char *function, char *text,
   listener->listen(text, listener->ctx);
 }
 
-int sph_sundials_listen(void *memory, SUNContext context, sph_sundials_listener *listener)
+int sph_sundials_listen(const sph_sundials_calls *call, void *memory, SUNContext context,
+                        sph_sundials_listener *listener)
 {
   (void)context;
-  return ERKStepSetErrHandlerFn(memory, hear, listener);
+  return call->set_err_handler_fn(memory, hear, listener);
 }
 
 void sph_sundials_deaf(SUNContext context) { (void)context; }
@@ -87,7 +135,8 @@ static SUNErrCode nothing(SUNAdaptController object)
   return 0;
 }
 
-int sph_sundials_control(void *memory, SUNContext context, sph_sundials_controller *controller)
+int sph_sundials_control(const sph_sundials_calls *call, void *memory, SUNContext context,
+                         sph_sundials_controller *controller)
 {
   SUNAdaptController object = SUNAdaptController_NewEmpty(context);
   if (!object) return -1;
@@ -96,7 +145,7 @@ int sph_sundials_control(void *memory, SUNContext context, sph_sundials_controll
   object->ops->estimatestep = estimate;
   object->ops->reset = nothing;
   controller->object = object;
-  return SPH_ERK(SetAdaptController)(memory, object);
+  return call->set_adapt_controller(memory, object);
 }
 
 void sph_sundials_control_free(sph_sundials_controller *controller)
@@ -117,10 +166,11 @@ static int adapt(N_Vector y, sunrealtype t, sunrealtype h1, sunrealtype h2, sunr
   return 0;
 }
 
-int sph_sundials_control(void *memory, SUNContext context, sph_sundials_controller *controller)
+int sph_sundials_control(const sph_sundials_calls *call, void *memory, SUNContext context,
+                         sph_sundials_controller *controller)
 {
   (void)context;
-  return ERKStepSetErrorBias(memory, 1) || ERKStepSetAdaptivityFn(memory, adapt, controller);
+  return call->set_error_bias(memory, 1) || call->set_adaptivity_fn(memory, adapt, controller);
 }
 
 void sph_sundials_control_free(sph_sundials_controller *controller) { controller->object = NULL; }

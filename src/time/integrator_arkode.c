@@ -1,0 +1,205 @@
+#include "integrator_arkode.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "integrator_table.h"
+#include "memory.h"
+#include "nvector.h"
+
+static const double CLOSE = 1e-6; /* relative: such step sizes are the same */
+
+/* ARKODE goes on with vectors that got no memory: their operations do nothing, and here it ends.
+ * */
+int sph_integrator_arkode_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *data)
+{
+  sph_integrator *it = data;
+  if (sph_nvector_lost(y)) return it->rhs_status = SPH_ERR_MEMORY;
+  return sph_integrator_rhs(it, t, y, ydot);
+}
+
+/* 1 / (tolerance scale); without error control any positive weights do. */
+static int weigh(N_Vector y, N_Vector weight, void *data)
+{
+  sph_integrator *it = data;
+  if (sph_nvector_lost(y)) return it->rhs_status = SPH_ERR_MEMORY;
+  if (!it->adaptive || !it->problem.weights) {
+    N_VConst(it->adaptive ? 1 / it->def.tolerance : 1, weight);
+    return 0;
+  }
+  int status = it->problem.weights(y, weight, it->problem.ctx);
+  if (!status) N_VScale(1 / it->def.tolerance, weight, weight);
+  return status;
+}
+
+/* ARKODE takes the fraction 1/2 of this, an exact number: the limits are ours. */
+static int stable(N_Vector y, sunrealtype t, sunrealtype *h, void *data)
+{
+  sph_integrator *it = data;
+  int status = sph_integrator_limit(it, t, y);
+  double limit = fmin(it->limit, 2 * it->cap); /* cap is that of the step that just ends */
+  *h = limit < INFINITY ? 2 * limit : 0;       /* 0: none */
+  return status;
+}
+
+/* Ranocha et al. (2022), section 2: from the errors e of this step and of the two accepted before,
+ *   h_new = h (1 + arctan(x - 1)),  x = prod_i e_i^(-beta_i/order). */
+static double control_pid(double h, double error, sph_integrator *it, const double *beta)
+{
+  sph_integrator_arkode *own = it->own;
+  const double e[3] = {fmax(error, 1e-10), own->error[0], own->error[1]};
+  double x = 1;
+  for (int i = 0; i < 3; i++) x *= pow(e[i], -beta[i] / it->info.order);
+  if (error <= 1) { /* else the step is repeated */
+    own->error[1] = own->error[0];
+    own->error[0] = e[0];
+  }
+  return h * (1 + atan(x - 1));
+}
+
+/* Integral controller: error ~ h^(p + 1) with an embedded scheme of order p = order - 1.
+ * Without memory, so that a restart changes nothing. */
+static double control(double h, double error, void *data)
+{
+  sph_integrator *it = data;
+  const double *beta = sph_integrator_table_control(it->row);
+  if (!(error < INFINITY)) return h / 10;
+  if (beta) return control_pid(h, error, it, beta);
+  return h * pow(fmax(error, 1e-10), -1.0 / it->info.order);
+}
+
+static void listen(const char *text, void *data)
+{
+  sph_integrator_arkode *own = data;
+  snprintf(own->text, sizeof own->text, "%s", text);
+}
+
+/* Nothing is left to the defaults of ARKODE, which differ between versions. */
+static int configure(sph_integrator *it, sph_integrator_arkode *own)
+{
+  const sph_sundials_calls *call = own->call;
+  void *m = own->memory;
+  int failed = call->set_user_data(m, it) || call->wf_tolerances(m, weigh) ||
+               call->set_interpolant_type(m, ARK_INTERP_HERMITE) ||
+               call->set_interpolant_degree(m, 3);
+  if (failed || !it->adaptive) return failed;
+  own->controller = (sph_sundials_controller){.step = control, .ctx = it};
+  return sph_sundials_control(call, m, own->context, &own->controller) ||
+         call->set_stability_fn(m, stable, it) || call->set_cfl_fraction(m, 0.5) ||
+         call->set_safety_factor(m, 0.9) || call->set_max_growth(m, 5) ||
+         call->set_max_first_growth(m, 10) || call->set_min_reduction(m, 0.1) ||
+         call->set_fixed_step_bounds(m, 1, 1) || call->set_max_efail_growth(m, 0.3) ||
+         call->set_small_num_efails(m, 2) || call->set_max_err_test_fails(m, 12);
+}
+
+sph_integrator_arkode *sph_integrator_arkode_create(sph_integrator *it, SUNContext context,
+                                                    const sph_sundials_calls *call)
+{
+  sph_integrator_arkode *own = it->own =
+      SPH_NEW(sph_integrator_arkode, 1, "an integrator of ARKODE", it->problem.error);
+  if (!own) return NULL;
+  *own = (sph_integrator_arkode){.context = context, .call = call, .fresh = 1, .error = {1, 1}};
+  return own;
+}
+
+int sph_integrator_arkode_configure(sph_integrator *it)
+{
+  sph_integrator_arkode *own = it->own;
+  if (!own->memory || sph_nvector_lost(it->y)) return SPH_ERR_MEMORY;
+  own->listener = (sph_sundials_listener){.listen = listen, .ctx = own};
+  own->listening = !sph_sundials_listen(own->call, own->memory, own->context, &own->listener);
+  return own->listening && !configure(it, own) && !sph_nvector_lost(it->y) ? SPH_OK
+                                                                           : SPH_ERR_MEMORY;
+}
+
+void sph_integrator_arkode_free(sph_integrator *it)
+{
+  sph_integrator_arkode *own = it->own;
+  if (!own) return;
+  if (own->memory) own->call->free(&own->memory);
+  sph_sundials_control_free(&own->controller);
+  if (own->listening) sph_sundials_deaf(own->context);
+  sph_memory_free(own);
+}
+
+/* What ARKODE's flag means; an evaluation that failed knows better. */
+static int outcome(sph_integrator *it, int flag)
+{
+  const sph_integrator_arkode *own = it->own;
+  if (sph_nvector_lost(it->y)) return sph_integrator_fail(it, SPH_ERR_MEMORY, "out of memory");
+  if (flag >= 0) return SPH_OK;
+  if (it->rhs_status) return it->rhs_status;
+  int status = flag == ARK_MEM_FAIL ? SPH_ERR_MEMORY : SPH_ERR_STEP;
+  return sph_integrator_fail(it, status, own->text[0] ? own->text : "SUNDIALS failed");
+}
+
+int sph_integrator_arkode_reject(sph_integrator *it)
+{
+  sph_integrator_arkode *own = it->own;
+  own->fresh = 1;
+  own->resume = 0;
+  own->error[0] = own->error[1] = 1;
+  it->rhs_status = 0;
+  return outcome(it, own->call->reset(own->memory, it->time, it->y));
+}
+
+/* The problem's limits need rates at (time, y); `before` is free at that moment. */
+int sph_integrator_arkode_start(sph_integrator *it)
+{
+  sph_integrator_arkode *own = it->own;
+  int status = it->problem.limits ? sph_integrator_rhs(it, it->time, it->y, it->before) : SPH_OK;
+  if (!status && own->used) status = sph_integrator_arkode_reject(it);
+  return status;
+}
+
+/* The step that ARKODE will try, and what it needs for it. */
+static int prepare(sph_integrator *it, const sph_attempt *a, double *h)
+{
+  sph_integrator_arkode *own = it->own;
+  *h = a->h;
+  if (!it->adaptive) return own->call->set_fixed_step(own->memory, a->h);
+  if (own->resume > 0) {
+    *h = fmin(*h, own->resume);
+    int status = sph_integrator_arkode_reject(it);
+    if (status) return status;
+  }
+  if (own->fresh) return own->call->set_init_step(own->memory, *h < INFINITY ? *h : 0);
+  return own->call->get_current_step(own->memory, h);
+}
+
+int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *a, double t_stop)
+{
+  sph_integrator_arkode *own = it->own;
+  double t = it->time, left = t_stop - it->time, h = 0;
+  own->text[0] = 0;
+  it->rhs_status = 0;
+  int flag = prepare(it, a, &h);
+  if (flag >= 0) flag = own->call->set_stop_time(own->memory, t_stop);
+  if (flag >= 0) flag = own->call->evolve(own->memory, t_stop, it->y, &t, ARK_ONE_STEP);
+  if (flag < 0 || sph_nvector_lost(it->y)) {
+    a->h = fmin(h, left);
+    return outcome(it, flag);
+  }
+  own->used = 1;
+  own->fresh = 0;
+  a->t = flag == ARK_TSTOP_RETURN ? t_stop : t;
+  a->h = a->t - it->time;
+  if (!it->adaptive) return SPH_OK;
+  own->call->get_num_err_test_fails(own->memory, &it->stats.rejected);
+  if (a->h < a->limit * (1 - CLOSE))
+    a->bound = flag == ARK_TSTOP_RETURN ? SPH_BOUND_STOP : SPH_BOUND_ERROR;
+  /* A controller that grows steps slowly should not see the one that was cut short. */
+  double short_step = sph_integrator_table_control(it->row) ? 0.9 : 0.2;
+  if (a->bound == SPH_BOUND_STOP && a->h < short_step * it->stats.dt_last)
+    own->resume = it->stats.dt_last;
+  return a->bound != SPH_BOUND_STOP && a->h < it->def.dt_min
+             ? sph_integrator_fail(it, SPH_ERR_STEP, "error control asks for less than dt_min")
+             : SPH_OK;
+}
+
+int sph_integrator_arkode_interpolate(sph_integrator *it, double t, N_Vector at)
+{
+  sph_integrator_arkode *own = it->own;
+  it->rhs_status = 0;
+  return outcome(it, own->call->get_dky(own->memory, t, 0, at));
+}

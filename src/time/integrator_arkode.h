@@ -1,0 +1,43 @@
+/* integrator_arkode.h -- what all steppers of ARKODE share: one step a call, error weights, the
+ * controller, stability, stop times, retries, dense output.
+ *
+ * A kind of stepper adds its creator: sph_integrator_arkode_create, then `memory` with its
+ * right-hand sides, then sph_integrator_arkode_configure, then its tables; the other callbacks of
+ * its sph_stepper are these. */
+#ifndef SPH_INTEGRATOR_ARKODE_H
+#define SPH_INTEGRATOR_ARKODE_H
+#include "integrator_data.h"
+
+typedef struct sph_integrator_arkode {
+  void *memory; /* ARKODE's; made by the kind of stepper, freed here */
+  const sph_sundials_calls *call;
+  SUNContext context;
+  sph_sundials_listener listener;
+  sph_sundials_controller controller;
+  int listening;
+  int used;        /* ARKODE has made a step since its creation */
+  int fresh;       /* the next attempt starts anew, with the step size of its plan */
+  double error[2]; /* of the last two accepted steps, for controllers with memory; 1 at a start */
+  double resume;   /* > 0: start anew with this step, which a stop time had cut short [s] */
+  void *kind;      /* what the kind of stepper keeps, its own */
+  char text[400];  /* what ARKODE said last */
+} sph_integrator_arkode;
+
+/* it->own, without its memory yet; NULL: recorded. */
+sph_integrator_arkode *sph_integrator_arkode_create(sph_integrator *it, SUNContext context,
+                                                    const sph_sundials_calls *call);
+/* All that is no matter of tables: user data (the integrator), weights, dense output, controller.
+ * A status: SPH_ERR_MEMORY also where `memory` is NULL. */
+int sph_integrator_arkode_configure(sph_integrator *it);
+void sph_integrator_arkode_free(sph_integrator *it);
+
+/* All of f, for ARKODE. */
+int sph_integrator_arkode_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *it);
+
+/* As in sph_stepper. */
+int sph_integrator_arkode_start(sph_integrator *it);
+int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *attempt, double t_stop);
+int sph_integrator_arkode_reject(sph_integrator *it);
+int sph_integrator_arkode_interpolate(sph_integrator *it, double t, N_Vector at);
+
+#endif
