@@ -9,6 +9,7 @@
 
 #include "case_material.h"
 #include "case_schema.h"
+#include "name.h"
 
 static int check_value(sph_case *c, const sph_case_key *key, sph_case_node *node);
 static int check_map(sph_case *c, const char *mapping, sph_case_node *node);
@@ -17,26 +18,6 @@ static int check_map(sph_case *c, const char *mapping, sph_case_node *node);
 #define FAIL_KEY(node, ...) sph_case_schema_fail(c, c->error, node, 0, 0, __VA_ARGS__)
 
 /* ---- words */
-
-/* Levenshtein's distance of two words, both cut at 40 characters. */
-static int distance(const char *a, const char *b)
-{
-  enum { CUT = 40 };
-  int row[CUT + 1], n = (int)strnlen(a, CUT), m = (int)strnlen(b, CUT);
-  for (int j = 0; j <= m; j++) row[j] = j;
-  for (int i = 1; i <= n; i++) {
-    int diagonal = row[0];
-    row[0] = i;
-    for (int j = 1; j <= m; j++) {
-      int change =
-          diagonal + (tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]));
-      int less = row[j] < row[j - 1] ? row[j] + 1 : row[j - 1] + 1;
-      diagonal = row[j];
-      row[j] = change < less ? change : less;
-    }
-  }
-  return row[m];
-}
 
 typedef struct words {
   const char *wanted;
@@ -49,7 +30,7 @@ static void words_add(words *w, const char *word)
 {
   size_t n = strlen(w->known);
   snprintf(w->known + n, sizeof w->known - n, "%s%s", n ? ", " : "", word);
-  int d = distance(w->wanted, word);
+  int d = sph_name_distance(w->wanted, word);
   if (3 * d > (int)strlen(word) + 2 || (w->nearest[0] && d >= w->best)) return;
   w->best = d;
   snprintf(w->nearest, sizeof w->nearest, "did you mean '%.40s'? ", word);

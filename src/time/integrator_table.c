@@ -6,6 +6,7 @@
 
 #include "integrator_data.h"
 #include "integrator_rdpk.h"
+#include "name.h"
 
 /* The staggered leapfrog and the velocity Verlet scheme are one scheme in two notations. */
 static const struct {
@@ -101,25 +102,6 @@ int sph_integrator_table_info(int k, sph_integrator_info *info)
   return 1;
 }
 
-/* Letters to insert, delete or replace (Levenshtein 1966). */
-static int distance(const char *a, const char *b)
-{
-  enum { LONGEST = 64 };
-  int row[LONGEST + 1], n = (int)strnlen(b, LONGEST);
-  for (int j = 0; j <= n; j++) row[j] = j;
-  for (int i = 0; i < LONGEST && a[i]; i++) {
-    int diagonal = row[0];
-    row[0] = i + 1;
-    for (int j = 0; j < n; j++) {
-      int change = diagonal + (a[i] != b[j]), above = row[j + 1];
-      int step = (above < row[j] ? above : row[j]) + 1;
-      row[j + 1] = change < step ? change : step;
-      diagonal = above;
-    }
-  }
-  return row[n];
-}
-
 static int unknown(const char *name, sph_error *error)
 {
   char known[800] = "";
@@ -128,7 +110,7 @@ static int unknown(const char *name, sph_error *error)
   for (int k = 0; (row = sph_integrator_table_name(k)); k++) {
     size_t used = strlen(known);
     snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", row);
-    if (distance(name, row) < distance(name, nearest)) nearest = row;
+    if (sph_name_distance(name, row) < sph_name_distance(name, nearest)) nearest = row;
   }
   sph_error_set(error, SPH_ERR_ARGUMENT,
                 "integrator \"%.60s\" is unknown; the nearest is \"%s\", known are %s", name,
