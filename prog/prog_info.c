@@ -113,6 +113,8 @@ static int integrator_row(int k, row *r)
   snprintf(r->detail[1], sizeof r->detail[1], "%d", info.stages);
   snprintf(r->detail[2], sizeof r->detail[2], "%s", info.error_control ? "yes" : "no");
   snprintf(r->detail[3], sizeof r->detail[3], "%.3g", info.stability);
+  snprintf(r->detail[4], sizeof r->detail[4], "%s",
+           info.wants & SPH_WANTS_IMPLICIT ? "implicit part" : "none");
   return 1;
 }
 
@@ -132,8 +134,8 @@ static const list lists[] = {
      "about"},
     {"terms", {NULL}, "", term_row, "formula"},
     {"integrators",
-     {"order", "stages", "error-control", "stability"},
-     "nnyn",
+     {"order", "stages", "error-control", "stability", "wants"},
+     "nnynt",
      integrator_row,
      "formula"},
     {"boundaries", {NULL}, "", boundary_row, "formula"},

@@ -62,28 +62,38 @@ typedef struct sph_scheme {
 } sph_scheme;
 
 typedef struct sph_integrator_def {
-  /* "erk:<table>", "leapfrog", "verlet" (the same), "dkd", "predictor-corrector", "midpoint",
-   * "verlet-dual", "symplectic"; NULL: own's, or without one "erk:bogacki-shampine-4-2-3" */
+  /* "erk:<table>", "imex:<table>", "leapfrog", "verlet" (the same), "dkd", "predictor-corrector",
+   * "midpoint", "verlet-dual", "symplectic"; NULL: own's, or without one
+   * "erk:bogacki-shampine-4-2-3" */
   const char *method;
   /* Fraction of the scheme's stability limit; 0: 0.8 with error control, 0.35 without. */
   double cfl;
   /* Of a step's error, relative to the physical scales of each field; 0: 1e-2, or none where the
    * scheme has no estimate; < 0: no error control (CFL alone). */
   double tolerance;
-  double dt_max;         /* [s]; 0: no limit */
-  double dt_min;         /* a smaller step is a failure [s]; 0: 1e-9 of the first limit */
-  double dt_fixed;       /* > 0: this step always, limits are not obeyed, nothing is halved [s] */
-  int retries;           /* halvings after a step that is not admissible before giving up; 0: 12 */
+  double dt_max;   /* [s]; 0: no limit */
+  double dt_min;   /* a smaller step is a failure [s]; 0: 1e-9 of the first limit */
+  double dt_fixed; /* > 0: this step always, limits are not obeyed, nothing is halved [s] */
+  int retries;     /* halvings after a step that is not admissible before giving up; 0: 12 */
+  /* Of the error of an implicit stage, relative to the same scales; 0: 1e-2 of tolerance with error
+   * control, else 1e-8. */
+  double stage_tolerance;
   const sph_scheme *own; /* instead of method: a scheme of your own, copied; NULL: none */
 } sph_integrator_def;
+
+/* What a scheme asks of the right-hand side f besides its value: bits. */
+enum sph_integrator_wants {
+  SPH_WANTS_IMPLICIT = 1 /* terms of part "implicit" are solved for (sph_sim_set_part) */
+};
 
 /* What one integrator is: a row of the table that `sphode info integrators` prints. */
 typedef struct sph_integrator_info {
   const char *name;
   int order;
-  int stages;        /* right-hand sides a step */
+  int stages;        /* right-hand sides a step; imex: explicit parts */
   int error_control; /* has an embedded error estimate */
-  double stability;  /* limit S, measured: dt <= S h/(c + |v|) */
+  double stability;  /* limit S of explicit parts, measured: dt <= S h/(c + |v|) */
+  int wants;         /* enum sph_integrator_wants; 0: nothing */
 } sph_integrator_info;
 
 /* Row k = 0, 1, ...; returns 0 behind the last. */
@@ -91,11 +101,14 @@ SPH_API int sph_integrator_info_get(int k, sph_integrator_info *info);
 
 /* What happened so far. */
 typedef struct sph_step_stats {
-  long steps;    /* accepted */
-  long rejected; /* failed error tests */
-  long retries;  /* attempts repeated with half the step after SPH_RETRY */
-  long rhs_evaluations;
-  long bound_by[8];                        /* accepted steps by what bound them: enum sph_bound */
+  long steps;                /* accepted */
+  long rejected;             /* failed error tests */
+  long retries;              /* attempts repeated with half the step after SPH_RETRY */
+  long rhs_evaluations;      /* also of the explicit part alone */
+  long implicit_evaluations; /* of the implicit part alone */
+  long solves;               /* of implicit stages */
+  long solve_iterations;     /* of linear solvers in them */
+  long bound_by[8];          /* accepted steps by what bound them: enum sph_bound */
   double dt_last, dt_smallest, dt_largest; /* [s] */
 } sph_step_stats;
 

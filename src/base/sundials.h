@@ -4,11 +4,13 @@
 #define SPH_SUNDIALS_H
 #include <arkode/arkode.h>
 #include <arkode/arkode_arkstep.h>
+#include <arkode/arkode_butcher_dirk.h>
 #include <arkode/arkode_butcher_erk.h>
 #include <arkode/arkode_erkstep.h>
 #include <arkode/arkode_mristep.h>
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
+#include <sundials/sundials_nonlinearsolver.h>
 #include <sundials/sundials_nvector.h>
 #include <sundials/sundials_types.h>
 

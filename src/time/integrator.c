@@ -82,6 +82,9 @@ int sph_integrator_check(const sph_integrator_def *def, sph_error *error)
     status = check_value("dt_fixed", def->dt_fixed, "0 or more [s]", def->dt_fixed >= 0, error);
   if (!status)
     status = check_value("retries", def->retries, "0 (default) or more", def->retries >= 0, error);
+  if (!status)
+    status = check_value("stage_tolerance", def->stage_tolerance, "0 (default) or more",
+                         def->stage_tolerance >= 0, error);
   if (!status && def->tolerance > 0 && !info.error_control)
     status = sph_error_set(error, SPH_ERR_ARGUMENT,
                            "integrator: tolerance = %g, but %s has no error estimate; right is 0",
@@ -99,11 +102,13 @@ static void define(sph_integrator *it, const sph_integrator_def *def)
     it->user.name = it->info.name = it->name;
     it->scheme = &it->user;
   }
-  it->stepper = it->scheme ? &sph_ode_stepper : &sph_integrator_erk;
+  it->stepper = sph_integrator_table_stepper(it->row);
   it->def = *def;
   it->def.method = it->info.name;
   it->adaptive = it->info.error_control && def->tolerance >= 0 && !(def->dt_fixed > 0);
   if (def->tolerance == 0) it->def.tolerance = 1e-2;
+  if (def->stage_tolerance == 0)
+    it->def.stage_tolerance = it->adaptive ? 1e-2 * it->def.tolerance : 1e-8;
   if (def->cfl == 0) it->def.cfl = it->adaptive ? 0.8 : 0.35;
   if (def->retries == 0) it->def.retries = 12;
 }
@@ -141,6 +146,13 @@ int sph_integrator_rhs(sph_integrator *it, double t, N_Vector y, N_Vector ydot)
 {
   it->stats.rhs_evaluations++;
   it->rhs_status = it->problem.rhs(t, y, ydot, it->problem.ctx);
+  return it->rhs_status;
+}
+
+int sph_integrator_piece(sph_integrator *it, int piece, double t, N_Vector y, N_Vector ydot)
+{
+  ++*(piece == SPH_PIECE_IMPLICIT ? &it->stats.implicit_evaluations : &it->stats.rhs_evaluations);
+  it->rhs_status = it->problem.rhs_piece(piece, t, y, ydot, it->problem.ctx);
   return it->rhs_status;
 }
 

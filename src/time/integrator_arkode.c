@@ -18,6 +18,12 @@ int sph_integrator_arkode_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *da
   return sph_integrator_rhs(it, t, y, ydot);
 }
 
+int sph_integrator_arkode_piece(sph_integrator *it, int piece, double t, N_Vector y, N_Vector ydot)
+{
+  if (sph_nvector_lost(y)) return it->rhs_status = SPH_ERR_MEMORY;
+  return sph_integrator_piece(it, piece, t, y, ydot);
+}
+
 /* 1 / (tolerance scale); without error control any positive weights do. */
 static int weigh(N_Vector y, N_Vector weight, void *data)
 {

@@ -34,6 +34,9 @@ void sph_integrator_arkode_free(sph_integrator *it);
 /* All of f, for ARKODE. */
 int sph_integrator_arkode_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *it);
 
+/* A piece of it: sph_integrator_piece, for vectors that ARKODE cloned. */
+int sph_integrator_arkode_piece(sph_integrator *it, int piece, double t, N_Vector y, N_Vector ydot);
+
 /* As in sph_stepper. */
 int sph_integrator_arkode_start(sph_integrator *it);
 int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *attempt, double t_stop);

@@ -54,12 +54,14 @@ struct sph_integrator {
 
 /* f(t, y), counted. */
 int sph_integrator_rhs(sph_integrator *it, double t, N_Vector y, N_Vector ydot);
+/* A piece of it (enum sph_piece), counted. */
+int sph_integrator_piece(sph_integrator *it, int piece, double t, N_Vector y, N_Vector ydot);
 /* Asks the problem for its limits and sets it->limit and it->cause. */
 int sph_integrator_limit(sph_integrator *it, double t, N_Vector y);
 /* Records a failure of the step that starts at it->time. */
 int sph_integrator_fail(sph_integrator *it, int status, const char *why);
 
-extern const sph_stepper sph_ode_stepper, sph_integrator_erk;
+extern const sph_stepper sph_ode_stepper, sph_integrator_erk, sph_integrator_imex;
 extern const sph_scheme sph_integrator_leapfrog, sph_integrator_dkd,
     sph_integrator_predictor_corrector, sph_integrator_midpoint, sph_integrator_verlet_dual,
     sph_integrator_symplectic;

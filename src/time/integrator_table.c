@@ -32,21 +32,111 @@ static const struct {
 #undef X
 };
 
-/* Those that this SUNDIALS has. */
-static int arkode_rows(void)
+/* Pairs of one explicit and one implicit table of the same nodes and weights: Kennedy & Carpenter
+ * (2003, 2019), and Giraldo, Kelly & Constantinescu (2013). */
+static const struct {
+  const char *name;
+  ARKODE_ERKTableID explicit;
+  ARKODE_DIRKTableID implicit;
+} imex[] = {
+    {"imex:ark324l2sa-4-2-3", ARKODE_ARK324L2SA_ERK_4_2_3, ARKODE_ARK324L2SA_DIRK_4_2_3},
+    {"imex:ark436l2sa-6-3-4", ARKODE_ARK436L2SA_ERK_6_3_4, ARKODE_ARK436L2SA_DIRK_6_3_4},
+    {"imex:ark437l2sa-7-3-4", ARKODE_ARK437L2SA_ERK_7_3_4, ARKODE_ARK437L2SA_DIRK_7_3_4},
+    {"imex:ark548l2sa-8-4-5", ARKODE_ARK548L2SA_ERK_8_4_5, ARKODE_ARK548L2SA_DIRK_8_4_5},
+    {"imex:ark548l2sab-8-4-5", ARKODE_ARK548L2SAb_ERK_8_4_5, ARKODE_ARK548L2SAb_DIRK_8_4_5},
+#if SPH_SUNDIALS_NUMBER >= 60600
+    {"imex:ark2-3-1-2", ARKODE_ARK2_ERK_3_1_2, ARKODE_ARK2_DIRK_3_1_2},
+#endif
+};
+enum { IMEX = sizeof imex / sizeof *imex };
+
+static const char *own_name(int k) { return k < OWN ? own[k].name : NULL; }
+
+static int own_info(int k, sph_integrator_info *info)
 {
-  int listed = sizeof erk / sizeof *erk, built = ARKODE_MAX_ERK_NUM + 1;
-  return listed < built ? listed : built;
+  *info = sph_integrator_table_scheme_info(own[k].scheme);
+  return 1;
 }
 
-/* Number of the pair in integrator_rdpk.c, < 0: another kind of row. */
-static int rdpk(int k) { return k - OWN - arkode_rows(); }
+/* Those that this SUNDIALS has. */
+static const char *erk_name(int k)
+{
+  int listed = sizeof erk / sizeof *erk, built = ARKODE_MAX_ERK_NUM + 1;
+  return k < listed && k < built ? erk[k].name : NULL;
+}
+
+static ARKodeButcherTable erk_table(int k)
+{
+  return ARKodeButcherTable_LoadERK((ARKODE_ERKTableID)(ARKODE_MIN_ERK_NUM + k));
+}
+
+static int butcher_info(ARKodeButcherTable table, double stability, sph_integrator_info *info)
+{
+  if (!table) return 0;
+  *info = (sph_integrator_info){.order = table->q,
+                                .stages = table->stages - sph_integrator_table_fsal(table),
+                                .error_control = table->d != NULL && table->p > 0,
+                                .stability = stability};
+  ARKodeButcherTable_Free(table);
+  return 1;
+}
+
+static int erk_info(int k, sph_integrator_info *info)
+{
+  return butcher_info(erk_table(k), erk[k].stability, info);
+}
+
+static int rdpk_info(int k, sph_integrator_info *info)
+{
+  return butcher_info(sph_integrator_rdpk_table(k), sph_integrator_rdpk_stability(k), info);
+}
+
+static const char *imex_name(int k) { return k < IMEX ? imex[k].name : NULL; }
+
+static int imex_info(int k, sph_integrator_info *info)
+{
+  int done = erk_info(imex[k].explicit - ARKODE_MIN_ERK_NUM, info);
+  info->wants = SPH_WANTS_IMPLICIT;
+  return done;
+}
+
+/* A kind of rows, k = 0, 1, ... of its own. */
+typedef struct family {
+  const char *(*name)(int k);                    /* NULL behind the last */
+  int (*info)(int k, sph_integrator_info *info); /* all but the name; 0: out of memory */
+  const sph_stepper *stepper;
+} family;
+
+static const family families[] = {
+    {own_name, own_info, &sph_ode_stepper},
+    {erk_name, erk_info, &sph_integrator_erk},
+    {sph_integrator_rdpk_name, rdpk_info, &sph_integrator_erk},
+    {imex_name, imex_info, &sph_integrator_imex},
+};
+enum { FAMILIES = sizeof families / sizeof *families };
+
+/* The family of row *k, which becomes its number there; NULL: no row. */
+static const family *family_of(int *k)
+{
+  for (int f = 0; f < FAMILIES && *k >= 0; f++) {
+    int rows = 0;
+    while (families[f].name(rows)) rows++;
+    if (*k < rows) return &families[f];
+    *k -= rows;
+  }
+  return NULL;
+}
 
 const char *sph_integrator_table_name(int k)
 {
-  if (k < 0) return NULL;
-  if (rdpk(k) >= 0) return sph_integrator_rdpk_name(rdpk(k));
-  return k < OWN ? own[k].name : erk[k - OWN].name;
+  const family *f = family_of(&k);
+  return f ? f->name(k) : NULL;
+}
+
+const sph_stepper *sph_integrator_table_stepper(int k)
+{
+  const family *f = family_of(&k);
+  return f ? f->stepper : &sph_ode_stepper;
 }
 
 const sph_scheme *sph_integrator_table_scheme(int k)
@@ -56,14 +146,29 @@ const sph_scheme *sph_integrator_table_scheme(int k)
 
 ARKodeButcherTable sph_integrator_table_butcher(int k)
 {
-  if (k < OWN || !sph_integrator_table_name(k)) return NULL;
-  if (rdpk(k) >= 0) return sph_integrator_rdpk_table(rdpk(k));
-  return ARKodeButcherTable_LoadERK((ARKODE_ERKTableID)(ARKODE_MIN_ERK_NUM + k - OWN));
+  const family *f = family_of(&k);
+  if (!f) return NULL;
+  if (f->name == erk_name) return erk_table(k);
+  return f->info == rdpk_info ? sph_integrator_rdpk_table(k) : NULL;
+}
+
+int sph_integrator_table_pair(int k, ARKodeButcherTable pair[2])
+{
+  const family *f = family_of(&k);
+  pair[0] = pair[1] = NULL;
+  if (!f || f->name != imex_name) return 0;
+  pair[0] = ARKodeButcherTable_LoadERK(imex[k].explicit);
+  pair[1] = ARKodeButcherTable_LoadDIRK(imex[k].implicit);
+  if (pair[0] && pair[1]) return 1;
+  ARKodeButcherTable_Free(pair[0]);
+  ARKodeButcherTable_Free(pair[1]);
+  return 0;
 }
 
 const double *sph_integrator_table_control(int k)
 {
-  return rdpk(k) >= 0 ? sph_integrator_rdpk_control(rdpk(k)) : NULL;
+  const family *f = family_of(&k);
+  return f && f->info == rdpk_info ? sph_integrator_rdpk_control(k) : NULL;
 }
 
 int sph_integrator_table_fsal(const struct ARKodeButcherTableMem *table)
@@ -84,22 +189,37 @@ sph_integrator_info sph_integrator_table_scheme_info(const sph_scheme *scheme)
 
 int sph_integrator_table_info(int k, sph_integrator_info *info)
 {
-  if (!sph_integrator_table_name(k)) return 0;
-  if (k < OWN) {
-    *info = sph_integrator_table_scheme_info(own[k].scheme);
-    info->name = own[k].name;
-    return 1;
-  }
-  ARKodeButcherTable table = sph_integrator_table_butcher(k);
-  if (!table) return 0;
-  *info = (sph_integrator_info){.name = sph_integrator_table_name(k),
-                                .order = table->q,
-                                .stages = table->stages - sph_integrator_table_fsal(table),
-                                .error_control = table->d != NULL && table->p > 0,
-                                .stability = rdpk(k) < 0 ? erk[k - OWN].stability
-                                                         : sph_integrator_rdpk_stability(rdpk(k))};
-  ARKodeButcherTable_Free(table);
+  const family *f = family_of(&k);
+  if (!f || !f->info(k, info)) return 0;
+  info->name = f->name(k);
   return 1;
+}
+
+/* Letters of "erk:" and the like; 0: none. */
+static int prefix(const char *name)
+{
+  const char *colon = strchr(name, ':');
+  return colon ? (int)(colon - name) + 1 : 0;
+}
+
+/* Rows of the kind of that name; of all kinds where there are none, then one row as "erk:..." for
+ * all of its kind. */
+static void list(char *known, size_t size, const char *name)
+{
+  const char *row, *last = "";
+  int kind = prefix(name), found = 0;
+  for (int k = 0; kind && (row = sph_integrator_table_name(k)); k++)
+    found |= !strncmp(name, row, (size_t)kind);
+  for (int k = 0; (row = sph_integrator_table_name(k)); k++) {
+    size_t used = strlen(known);
+    int n = prefix(row), again = n && !strncmp(row, last, (size_t)n);
+    const char *comma = used ? ", " : "";
+    last = row;
+    if (found && !strncmp(name, row, (size_t)kind))
+      snprintf(known + used, size - used, "%s%s", comma, row);
+    if (!found && !again)
+      snprintf(known + used, size - used, "%s%.*s%s", comma, n ? n : 63, row, n ? "..." : "");
+  }
 }
 
 static int unknown(const char *name, sph_error *error)
@@ -107,11 +227,9 @@ static int unknown(const char *name, sph_error *error)
   char known[800] = "";
   const char *nearest = own[0].name;
   const char *row;
-  for (int k = 0; (row = sph_integrator_table_name(k)); k++) {
-    size_t used = strlen(known);
-    snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", row);
+  for (int k = 0; (row = sph_integrator_table_name(k)); k++)
     if (sph_name_distance(name, row) < sph_name_distance(name, nearest)) nearest = row;
-  }
+  list(known, sizeof known, name);
   sph_error_set(error, SPH_ERR_ARGUMENT,
                 "integrator \"%.60s\" is unknown; the nearest is \"%s\", known are %s", name,
                 nearest, known);

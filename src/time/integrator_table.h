@@ -1,6 +1,7 @@
 /* integrator_table.h -- which integrators there are. */
 #ifndef SPH_INTEGRATOR_TABLE_H
 #define SPH_INTEGRATOR_TABLE_H
+#include "integrator_data.h"
 #include "sphode/integrator.h"
 #include "sundials.h"
 
@@ -8,12 +9,17 @@
 const char *sph_integrator_table_name(int k);
 /* Row of that name (NULL: the default), or -1: recorded, with the known names and the nearest. */
 int sph_integrator_table_find(const char *name, sph_error *error);
+/* How row k steps; -1: a user's own scheme. */
+const sph_stepper *sph_integrator_table_stepper(int k);
 /* The scheme of row k if it is our own, else NULL. */
 const sph_scheme *sph_integrator_table_scheme(int k);
 /* What a scheme says of itself. */
 sph_integrator_info sph_integrator_table_scheme_info(const sph_scheme *scheme);
-/* The Butcher table of row k, owned by the caller; NULL: our own scheme, or out of memory. */
+/* The Butcher table of row k, owned by the caller; NULL: no explicit one, or out of memory. */
 ARKodeButcherTable sph_integrator_table_butcher(int k);
+/* The explicit and the implicit table of row k, owned by the caller: [2]; 0 and NULL: no such pair,
+ * or out of memory. */
+int sph_integrator_table_pair(int k, ARKodeButcherTable pair[2]);
 /* Exponents of its step size controller, [3]; NULL: the integral one. */
 const double *sph_integrator_table_control(int k);
 /* What row k is; 0 if it is no row, or without memory for its Butcher table. */

@@ -32,6 +32,7 @@ typedef struct sph_stage {
   double tolerance; /* of the weighted norm (sph_problem.weights) of the error of z */
   N_Vector known;   /* as given */
   N_Vector z;       /* comes as a guess, to be the solution */
+  long iterations;  /* of linear solvers: added to by solve */
 } sph_stage;
 
 typedef struct sph_problem {
@@ -47,9 +48,8 @@ typedef struct sph_problem {
                     void *ctx); /* after a step; SPH_RETRY: repeat with half of it; NULL: always */
   /* f piece by piece, for schemes that need that; NULL: f is one piece. */
   int (*rhs_piece)(int piece, double t, N_Vector y, N_Vector ydot, void *ctx);
-  /* Solves an implicit stage, to its tolerance; NULL: schemes find z by evaluations of f_implicit
-   * alone. */
-  int (*solve)(const sph_stage *stage, void *ctx);
+  /* Solves an implicit stage, to its tolerance; NULL: there is no implicit part. */
+  int (*solve)(sph_stage *stage, void *ctx);
   /* A bound of the largest |eigenvalue| of df/dy at (t, y) [1/s], for stabilised schemes. */
   int (*dominant)(double t, N_Vector y, double *lambda, void *ctx);
   /* A quantity that f conserves, and its derivative with respect to y, for relaxation. */
