@@ -63,7 +63,7 @@ static int solve(SUNNonlinearSolver solver, N_Vector y, N_Vector correction, N_V
   it->stats.solves++;
   it->stats.solve_iterations += stage.iterations;
   N_VLinearSum(1, own->z, -1, predicted, correction);
-  return it->rhs_status ? SPH_ERR_STEP : SUN_NLS_SUCCESS;
+  return it->rhs_status ? SPH_ERR_STEP : 0;
 }
 
 static int attach(sph_integrator *it, imex *own, void *memory, SUNContext context)
