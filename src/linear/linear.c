@@ -10,7 +10,9 @@
 #include "memory.h"
 #include "name.h"
 
-static const sph_linear_method *const table[] = {&sph_linear_pcg_jacobi};
+static const sph_linear_method *const table[] = {&sph_linear_pcg_jacobi, &sph_linear_pcg_ic0,
+                                                 &sph_linear_cholmod_supernodal,
+                                                 &sph_linear_cholmod_simplicial, &sph_linear_klu};
 enum { METHODS = sizeof table / sizeof table[0] };
 
 const char *sph_linear_name(int k) { return k >= 0 && k < METHODS ? table[k]->name : NULL; }
@@ -99,6 +101,16 @@ static int prepare(sph_linear *solver, const sph_linear_task *task, sph_error *e
   return SPH_OK;
 }
 
+static int check_solution(sph_linear *solver, const sph_linear_task *task)
+{
+  for (int c = 0; c < task->columns; c++)
+    for (long i = 0; i < task->A->n; i++)
+      if (!isfinite(task->x[c][i]))
+        return sph_linear_refuse(solver, "the solution is not finite: %g in row %ld of column %d",
+                                 task->x[c][i], i, c);
+  return SPH_OK;
+}
+
 int sph_linear_solve(sph_linear *solver, const sph_linear_task *task, sph_error *error)
 {
   solver->reason[0] = '\0';
@@ -107,6 +119,7 @@ int sph_linear_solve(sph_linear *solver, const sph_linear_task *task, sph_error 
   if (status || task->A->n == 0 || task->columns == 0) return status;
   status = prepare(solver, task, error);
   if (!status) status = solver->method->solve(solver, task, error);
+  if (!status) status = check_solution(solver, task);
   if (!status) solver->stats.solves++;
   return status;
 }

@@ -26,7 +26,9 @@ typedef struct sph_linear_method {
   void (*free)(sph_linear *solver); /* own may be NULL */
 } sph_linear_method;
 
-extern const sph_linear_method sph_linear_pcg_jacobi;
+extern const sph_linear_method sph_linear_pcg_jacobi, sph_linear_pcg_ic0;
+extern const sph_linear_method sph_linear_cholmod_supernodal, sph_linear_cholmod_simplicial;
+extern const sph_linear_method sph_linear_klu;
 
 /* Writes down a reason; returns SPH_RETRY. */
 int sph_linear_refuse(sph_linear *solver, const char *format, ...) SPH_PRINTF(2, 3);

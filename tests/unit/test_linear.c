@@ -181,6 +181,49 @@ static void blocks_and_small_ones(void **state)
   sph_csr_free(&p.A);
 }
 
+/* Positive and negative exchange: entries of any sign. */
+static void any_signs(void **state)
+{
+  (void)state;
+  for (int m = 0; sph_linear_name(m); m++) {
+    sph_linear *solver = create(sph_linear_name(m), 1);
+    spd_make(&p.A, 2, 14, 1e4, 5);
+    for (long i = 0; i < p.A.n; i++)
+      for (long k = p.A.start[i]; k < p.A.start[i + 1]; k++)
+        if ((i + p.A.column[k]) % 3 == 0) p.A.value[k] *= -1;
+    fill(3, 8);
+    expect_solved(solver, 1, 1, sph_linear_name(m));
+    sph_linear_free(solver);
+  }
+  sph_csr_free(&p.A);
+}
+
+/* The smallest matrix without an incomplete factor (Kershaw 1978, J. Comput. Phys. 26). */
+static void kershaw(void **state)
+{
+  static const int column[4][2] = {{1, 3}, {0, 2}, {3, 1}, {2, 0}};
+  static const double value[4][2] = {{-2, 2}, {-2, -2}, {-2, -2}, {-2, 2}};
+  sph_error error = {0};
+  (void)state;
+  if (sph_csr_reserve(&p.A, 4, 8, &error)) fail_msg("%s", error.text);
+  p.A.n = 4;
+  p.A.start[0] = 0;
+  for (int i = 0; i < 4; i++) {
+    p.A.start[i + 1] = 2 * i + 2;
+    p.A.diagonal[i] = 3;
+    p.A.floor[i] = 3 - 2 * sqrt(2);
+    for (int k = 0; k < 2; k++) p.A.column[2 * i + k] = column[i][k];
+    for (int k = 0; k < 2; k++) p.A.value[2 * i + k] = value[i][k];
+  }
+  fill(2, 3);
+  for (int m = 0; sph_linear_name(m); m++) {
+    sph_linear *solver = create(sph_linear_name(m), 1);
+    expect_solved(solver, 1, 1, sph_linear_name(m));
+    sph_linear_free(solver);
+  }
+  sph_csr_free(&p.A);
+}
+
 static void expect_refused(sph_linear *solver, long number, const char *name, const char *reason)
 {
   int status = solve(solver, number, number, 1e-8);
@@ -346,6 +389,8 @@ int main(void)
       cmocka_unit_test(same_as_dense),
       cmocka_unit_test(values_change),
       cmocka_unit_test(blocks_and_small_ones),
+      cmocka_unit_test(any_signs),
+      cmocka_unit_test(kershaw),
       cmocka_unit_test(refused),
       cmocka_unit_test(same_bits_for_any_number_of_threads),
       cmocka_unit_test(guesses_count),
