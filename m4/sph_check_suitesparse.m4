@@ -33,7 +33,8 @@ AS_IF([test $sph_have_suitesparse = yes], [
        [sph_suitesparse_]part[=0])
 ])
   SUITESPARSE_VERSION=$sph_suitesparse_MAIN.$sph_suitesparse_SUB.$sph_suitesparse_SUBSUB
-  SUITESPARSE_LIBS="$SUITESPARSE_LIBS -lklu -lcholmod -lsuitesparseconfig"])
+  SUITESPARSE_LIBS="$SUITESPARSE_LIBS -lklu -lcholmod -lsuitesparseconfig"
+  sph_libs_private="$sph_libs_private $sph_rpath -lklu -lcholmod -lsuitesparseconfig"])
 CPPFLAGS=$sph_save_CPPFLAGS LIBS=$sph_save_LIBS
 AC_SUBST([SUITESPARSE_CPPFLAGS])
 AC_SUBST([SUITESPARSE_LIBS])

@@ -1,5 +1,5 @@
-/* Conjugate gradients preconditioned by an incomplete Cholesky factor P = L L' with the pattern of A
- * (Meijerink & van der Vorst 1977).  It exists where all entries off the diagonal are <= 0; for
+/* Conjugate gradients preconditioned by an incomplete Cholesky factor P = L L' with the pattern of
+ * A (Meijerink & van der Vorst 1977).  It exists where all entries off the diagonal are <= 0; for
  * other matrices the diagonal is raised until it does (Manteuffel 1980).
  *
  * The solves with L go row by row, in one thread; products with A take all. */

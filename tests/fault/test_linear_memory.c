@@ -1,5 +1,5 @@
-/* Every allocation of matrices and linear solvers fails once, ours and those of CHOLMOD and KLU: it
- * is told, nothing leaks (under ASan or valgrind), and the next attempt is as if it had not been. */
+/* Every allocation of matrices and linear solvers fails once, ours and those of CHOLMOD and KLU:
+ * it is told, nothing leaks (under ASan or valgrind), the next attempt is as if it had not been. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
