@@ -43,17 +43,55 @@ static const command commands[] = {
     {"plot", "DIR", "Fn", sph_prog_plot, "draw a run again",
      "      --field NAME       colour: velocity, pressure, density, energy, velocity_x, ...\n"
      "      --frames N         snapshots on the sheet\n"},
+    {"work-precision", "CASE.yml", "ostqfFITCRUNX", sph_prog_work_precision,
+     "what each integrator needs for which temporal error",
+     "      --integrators LIST   names with commas between, each with further keys of the case's\n"
+     "                           integrator behind a +: imex:ark324l2sa-4-2-3+linear=cholmod\n"
+     "                           (default: erk:bogacki-shampine-4-2-3,leapfrog)\n"
+     "      --tolerances LIST    of those with error control (default: 1e-1,1e-2,...,1e-5)\n"
+     "      --cfl LIST           of the others: fixed steps, as fractions of the stability limit\n"
+     "                           (default: 1,0.7,0.5,0.35,0.175,...; 0.35, or the cfl of the "
+     "case,\n"
+     "                           stands for the steps that the limits allow)\n"
+     "      --fixed              fixed steps for all, without error control\n"
+     "      --reference NAME     (default: erk:dormand-prince-7-4-5), in steps that are halved "
+     "until\n"
+     "                           its own error is a tenth of the least that was found\n"
+     "      --until TIME         instead of the end of the case, as 0.1s\n"
+     "      --repeat N           the quickest of N runs counts (default: 1)\n"
+     "      --field NAME         of the pictures and the summary (default: velocity)\n"
+     "  -o, --output DIR         where to (default: the name of the case file and -work, here)\n"
+     "  -s, --set KEY=VALUE      as with run\n"
+     "  -t, --threads N          as with run\n"
+     "  -f, --force              write over a run that ended\n"
+     "  -q, --quiet              no progress, no table\n"
+     "\n"
+     "Leaves work-precision.csv, work-precision.txt, evaluations.png and seconds.png.\n"},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
 static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'},  {"set", required_argument, NULL, 's'},
-    {"threads", required_argument, NULL, 't'}, {"quiet", no_argument, NULL, 'q'},
-    {"force", no_argument, NULL, 'f'},         {"strict", no_argument, NULL, 'b'},
-    {"json", no_argument, NULL, 'j'},          {"csv", no_argument, NULL, 'c'},
-    {"q", required_argument, NULL, 'Q'},       {"field", required_argument, NULL, 'F'},
-    {"frames", required_argument, NULL, 'n'},  {"help", no_argument, NULL, 'h'},
-    {"version", no_argument, NULL, 'V'},       {NULL, 0, NULL, 0},
+    {"output", required_argument, NULL, 'o'},
+    {"set", required_argument, NULL, 's'},
+    {"threads", required_argument, NULL, 't'},
+    {"quiet", no_argument, NULL, 'q'},
+    {"force", no_argument, NULL, 'f'},
+    {"strict", no_argument, NULL, 'b'},
+    {"json", no_argument, NULL, 'j'},
+    {"csv", no_argument, NULL, 'c'},
+    {"q", required_argument, NULL, 'Q'},
+    {"field", required_argument, NULL, 'F'},
+    {"frames", required_argument, NULL, 'n'},
+    {"integrators", required_argument, NULL, 'I'},
+    {"tolerances", required_argument, NULL, 'T'},
+    {"cfl", required_argument, NULL, 'C'},
+    {"reference", required_argument, NULL, 'R'},
+    {"until", required_argument, NULL, 'U'},
+    {"repeat", required_argument, NULL, 'N'},
+    {"fixed", no_argument, NULL, 'X'},
+    {"help", no_argument, NULL, 'h'},
+    {"version", no_argument, NULL, 'V'},
+    {NULL, 0, NULL, 0},
 };
 
 int sph_prog_error(int status, const char *format, ...)
@@ -76,7 +114,7 @@ static void print_help(const command *c)
   puts("Usage: sphode COMMAND [OPTION]... ARGUMENT\n\n"
        "Smoothed particle hydrodynamics as a system of ordinary differential equations.\n");
   for (int k = 0; k < COMMANDS; k++)
-    printf("  %-6s %-9s %s\n", commands[k].name, commands[k].argument, commands[k].about);
+    printf("  %-14s %-9s %s\n", commands[k].name, commands[k].argument, commands[k].about);
   puts("\n  sphode COMMAND --help   its options\n"
        "  sphode --version\n\n"
        "Exit status: 0 done, 1 failed, 2 bad usage.");
@@ -112,6 +150,13 @@ static int take(prog_options *o, int letter, const char *value)
   case 'o': o->output = value; break;
   case 't': return number("threads", value, PROG_THREADS, &o->threads);
   case 'n': return number("frames", value, PROG_FRAMES, &o->frames);
+  case 'N': return number("repeat", value, PROG_REPEATS, &o->repeat);
+  case 'I': o->integrators = value; break;
+  case 'T': o->tolerances = value; break;
+  case 'C': o->cfl = value; break;
+  case 'R': o->reference = value; break;
+  case 'U': o->until = value; break;
+  case 'X': o->fixed = 1; break;
   case 'q': o->quiet = 1; break;
   case 'f': o->force = 1; break;
   case 'b': o->strict = 1; break;

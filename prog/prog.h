@@ -4,7 +4,12 @@
 #include <sphode.h>
 
 enum { PROG_OK = 0, PROG_FAILED = 1, PROG_USAGE = 2, PROG_BAR = 3 };
-enum { PROG_SETS = 64, PROG_THREADS = 1024, PROG_FRAMES = 16 }; /* at most, as in the library */
+enum {
+  PROG_SETS = 64,
+  PROG_THREADS = 1024,
+  PROG_FRAMES = 16,
+  PROG_REPEATS = 100
+}; /* at most, as in the library */
 
 typedef struct prog_options {
   const char *what;   /* the case file, the directory, the list */
@@ -16,6 +21,11 @@ typedef struct prog_options {
   const char *q;     /* "0,0.25,1.3" */
   const char *field; /* NULL: that of the case */
   int frames;        /* 0: that of the case */
+  /* work-precision: lists with commas between; NULL: the defaults. */
+  const char *integrators, *tolerances, *cfl, *reference;
+  const char *until; /* NULL: the end of the case */
+  int repeat;        /* 0: 1 */
+  int fixed;         /* no error control */
   char command[2000];
 } prog_options;
 
@@ -24,6 +34,7 @@ int sph_prog_run(const prog_options *o);
 int sph_prog_check(const prog_options *o);
 int sph_prog_info(const prog_options *o);
 int sph_prog_plot(const prog_options *o);
+int sph_prog_work_precision(const prog_options *o);
 
 /* sphode info kernels: for people; --csv --q, which returns the exit status. */
 void sph_prog_kernels_table(void);

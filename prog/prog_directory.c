@@ -28,6 +28,14 @@ static const char *const ours[] = {
     "compare_[0-9]*.gp",
     "compare_[0-9]*.dat",
     "compare_[0-9]*.csv",
+    "work-precision.csv",
+    "work-precision.txt",
+    "evaluations.png",
+    "evaluations.gp",
+    "evaluations.dat",
+    "seconds.png",
+    "seconds.gp",
+    "seconds.dat",
 };
 
 static int is_ours(const char *name)
@@ -76,7 +84,8 @@ int sph_prog_directory_take(const char *directory, int force)
     sph_prog_error(PROG_FAILED, "cannot open the directory %s: %s", directory, strerror(errno));
   else if (flock(at, LOCK_EX | LOCK_NB))
     sph_prog_error(PROG_FAILED, "another run is writing to %s now", directory);
-  else if (!force && !faccessat(at, "summary.json", F_OK, 0))
+  else if (!force && (!faccessat(at, "summary.json", F_OK, 0) ||
+                      !faccessat(at, "work-precision.csv", F_OK, 0)))
     sph_prog_error(PROG_FAILED,
                    "%s holds a run that ended; --output DIR goes elsewhere, --force writes over it",
                    directory);

@@ -81,6 +81,9 @@ SPH_API double *sph_group_write(sph_group *group, const char *field, int compone
 /* Time derivative of an integrated field ("velocity": accelerations) at the last sph_sim_evaluate,
  * [count]. */
 SPH_API const double *sph_group_rate(const sph_group *group, const char *field, int component);
+/* The scale that errors of an integrated field are measured in, that of the error weights: h, V,
+ * rho0 (V/c0)^2, V^2/2, ... in the field's unit; 0: no such field, a wall, or not evaluated yet. */
+SPH_API double sph_group_scale(const sph_group *group, const char *field);
 /* Particle numbers, unique in the simulation, constant: [count]. */
 SPH_API const long *sph_group_ids(const sph_group *group);
 

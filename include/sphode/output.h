@@ -134,14 +134,16 @@ typedef struct sph_plot_curve {
   double x_scale, y_scale; /* 0: 1 */
   double x_offset;         /* in the unit of the column */
   const char *label;       /* in the key; NULL: the column's name */
-  int points;              /* 1: points, 0: a line */
+  int points;              /* 1: points, 0: a line, 2: both */
   int colour;              /* of the palette, from 1 to 8; 0: by its place among the curves */
+  const char *where, *is;  /* of the rows whose column `where` holds the word `is`; NULL: of all */
 } sph_plot_curve;
 
 typedef struct sph_plot_def {
   const char *title;                 /* NULL: none */
   const char *x_label, *y_label;     /* NULL: the column's name and unit of the first curve */
   double x_min, x_max, y_min, y_max; /* min == max: what the curves need */
+  int log_x, log_y;                  /* logarithmic axes */
 } sph_plot_def;
 
 SPH_API int sph_plot_series(const sph_plot_curve *curve, int n, const sph_plot_def *def,

@@ -260,10 +260,10 @@ static sph_term term_of(const sph_case_node *map)
   return sph_term_gravity(g);
 }
 
-static int set_integrator(const builder *b, const sph_case_node *map)
+static sph_integrator_def integrator_of(const sph_case_node *map)
 {
   int control = get_number(map, "error_control", 1) != 0;
-  sph_integrator_def def = {
+  return (sph_integrator_def){
       .method = get_text(map, "method", NULL),
       .cfl = get_number(map, "cfl", 0),
       .tolerance = control ? get_number(map, "tolerance", 0) : -1,
@@ -272,6 +272,17 @@ static int set_integrator(const builder *b, const sph_case_node *map)
       .dt_fixed = get_number(map, "dt_fixed", 0),
       .retries = (int)get_number(map, "retries", 0),
   };
+}
+
+void sph_case_build_integrator(const sph_case *c, sph_integrator_def *def)
+{
+  static const sph_integrator_def none;
+  if (def) *def = c ? integrator_of(child_of(c->root, "integrator")) : none;
+}
+
+static int set_integrator(const builder *b, const sph_case_node *map)
+{
+  sph_integrator_def def = integrator_of(map);
   sph_sim_set_integrator(b->sim, &def);
   return told(b, map);
 }

@@ -62,10 +62,22 @@ static int find_column(const table *t, const char *name, int column, char title[
                        column + 1, k);
 }
 
-static int read_values(table *t, int column, double **values, long *n, sph_error *error)
+/* Does column k hold this word? */
+static int holds(const table *t, int k, const char *word)
+{
+  const char *at = field(t, k);
+  size_t length = at ? strcspn(at, ",") : 0;
+  while (length > 0 && (at[length - 1] == ' ' || at[length - 1] == '\t')) length--;
+  return at && strlen(word) == length && !strncmp(at, word, length);
+}
+
+/* Of the lines whose column `where` holds the word `is`; where < 0: of all. */
+static int read_values(table *t, int where, const char *is, int column, double **values, long *n,
+                       sph_error *error)
 {
   long capacity = 0;
   while (next_line(t)) {
+    if (where >= 0 && !holds(t, where, is)) continue;
     const char *at = field(t, column);
     char *end = NULL;
     double value = at ? strtod(at, &end) : 0;
@@ -90,6 +102,13 @@ static int read_values(table *t, int column, double **values, long *n, sph_error
 int sph_csv_read(const char *path, const char *name, int column, double **values, long *n,
                  char title[128], sph_error *error)
 {
+  return sph_csv_read_rows(path, (sph_csv_rows){NULL, NULL}, name, column, values, n, title, error);
+}
+
+int sph_csv_read_rows(const char *path, sph_csv_rows rows, const char *name, int column,
+                      double **values, long *n, char title[128], sph_error *error)
+{
+  int where = -1;
   *values = NULL;
   *n = 0;
   table *t = SPH_NEW(table, 1, "a line of a table", error);
@@ -102,8 +121,12 @@ int sph_csv_read(const char *path, const char *name, int column, double **values
                            strerror(path ? errno : ENOENT));
   else if (!next_line(t))
     status = sph_error_set(error, SPH_ERR_PARSE, "%s: an empty table", t->path);
+  if (status == SPH_OK && rows.column) {
+    where = find_column(t, rows.column, 0, title, error);
+    status = where < 0 ? where : SPH_OK;
+  }
   int found = status == SPH_OK ? find_column(t, name, column, title, error) : status;
-  status = found < 0 ? found : read_values(t, found, values, n, error);
+  status = found < 0 ? found : read_values(t, where, rows.is, found, values, n, error);
   if (t->file) fclose(t->file);
   sph_memory_free(t);
   if (status == SPH_OK) return status;

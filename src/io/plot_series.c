@@ -20,8 +20,10 @@ static int add_curve(const sph_plot_curve *c, sph_text *data, long *rows, char x
 {
   double *x = NULL, *y = NULL, x_scale = scale_or_1(c->x_scale), y_scale = scale_or_1(c->y_scale);
   long n = 0, n_y = 0;
-  int status = sph_csv_read(c->csv, c->x, 0, &x, &n, x_title, error);
-  if (status == SPH_OK) status = sph_csv_read(c->csv, c->y, 1, &y, &n_y, y_title, error);
+  sph_csv_rows which = {c->where, c->is ? c->is : ""};
+  int status = sph_csv_read_rows(c->csv, which, c->x, 0, &x, &n, x_title, error);
+  if (status == SPH_OK)
+    status = sph_csv_read_rows(c->csv, which, c->y, 1, &y, &n_y, y_title, error);
   if (status == SPH_OK && n == 0)
     status = sph_error_set(error, SPH_ERR_FILE, "%s: no rows to draw", c->csv);
   for (long i = 0; status == SPH_OK && i < n && i < n_y; i++)
@@ -48,6 +50,20 @@ static void add_range(sph_text *script, const char *axis, double lo, double hi)
   if (lo < hi) sph_text_add(script, "set %srange [%.9g:%.9g]\n", axis, lo, hi);
 }
 
+/* A logarithmic axis: powers of ten, over less than two of them 1, 2, 5, 10, 20, ... */
+static void add_log(sph_text *script, const char *axis, double lo, double hi)
+{
+  sph_text_add(script, "set logscale %s\n", axis);
+  if (!(lo > 0 && hi > lo && hi < 100 * lo)) {
+    sph_text_add(script, "set format %s '10^{%%T}'\n", axis);
+    return;
+  }
+  sph_text_add(script, "set %stics (", axis);
+  for (double power = pow(10, floor(log10(lo))); power <= hi; power *= 10)
+    sph_text_add(script, "%.9g, %.9g, %.9g, ", power, 2 * power, 5 * power);
+  sph_text_add(script, "%.9g)\nset format %s '%%g'\n", hi, axis);
+}
+
 static void add_head(const sph_plot_def *def, const char *x_title, const char *y_title,
                      sph_text *script)
 {
@@ -61,6 +77,8 @@ static void add_head(const sph_plot_def *def, const char *x_title, const char *y
   }
   add_label(script, "x", def->x_label, x_title);
   add_label(script, "y", def->y_label, y_title);
+  if (def->log_x) add_log(script, "x", def->x_min, def->x_max);
+  if (def->log_y) add_log(script, "y", def->y_min, def->y_max);
   add_range(script, "x", def->x_min, def->x_max);
   add_range(script, "y", def->y_min, def->y_max);
 }
@@ -72,7 +90,8 @@ static void add_plot(const sph_plot_curve *c, int k, long rows, const char *titl
   sph_text_add(script, "%s data index %d using 1:2 ", k ? ", \\\n " : "plot", k);
   const char *colour = colours[(c->colour > 0 ? c->colour - 1 : k) % COLOURS];
   if (c->points)
-    sph_text_add(script, "with points pt %d ps %s lc rgb '%s'", shapes[k % 5],
+    sph_text_add(script, "with %s pt %d ps %s lc rgb '%s'",
+                 c->points == 2 ? "linespoints lw 1.6" : "points", shapes[k % 5],
                  rows > MANY ? "0.4" : "1.0", colour);
   else
     sph_text_add(script, "with lines lw %s lc rgb '%s'", rows > MANY ? "1.5" : "2.2", colour);

@@ -254,6 +254,12 @@ const double *sph_group_rate(const sph_group *group, const char *field, int c)
   return sph_nvector_data(group->sim->ydot) + group->offset[number][c];
 }
 
+double sph_group_scale(const sph_group *group, const char *field)
+{
+  int number = find(group, field);
+  return !group || group->wall || number < 0 ? 0 : group->sim->scale[group->index][number];
+}
+
 sph_group *sph_group_box(sph_sim *sim, const char *name, const double *lo, const double *hi,
                          double rho0)
 {

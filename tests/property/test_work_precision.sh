@@ -1,0 +1,115 @@
+#!/usr/bin/env bash
+# sphode work-precision: orders, costs and failures that it tells of a wave and of a gas.
+sphode=${SPHODE:-$BUILDDIR/sphode}
+stage=$(mktemp -d) || exit 99
+trap 'rm -rf "$stage"' EXIT
+cd "$stage" || exit 99
+export OMP_WAIT_POLICY=passive
+wave=$SRCDIR/cases/acoustic-wave-1d.yml
+sod=$SRCDIR/cases/sod-1d.yml
+
+count=0
+ok() { # 0 or not, name
+  count=$((count + 1))
+  if [[ $1 == 0 ]]; then echo "ok $count - $2"; else echo "not ok $count - $2"; sed 's/^/# /' out err; fi
+}
+run() { # STATUS COMMAND...: standard output to out, errors to err; true where it exits with STATUS
+  local wanted=$1 status
+  shift
+  "$@" >out 2>err
+  status=$?
+  [[ $status == "$wanted" ]] && return
+  echo "# exit status $status, wanted $wanted: $*"
+  return 1
+}
+refused() { # STATUS, name, what the message says, arguments...
+  local status=$1 name=$2 says=$3
+  shift 3
+  run "$status" "$sphode" work-precision "$@" && grep -q "^sphode: .*$says" err && [[ ! -s out ]]
+  ok $? "$name"
+}
+# column INTEGRATOR VALUE NAME: of DIR/work-precision.csv
+column() {
+  awk -F, -v integrator="$1" -v value="$2" -v name="$3" '
+    /^#/ { next }
+    !n { for (n = 1; n <= NF; n++) { sub(/ \[.*/, "", $n); k[$n] = n }; next }
+    $1 == integrator && $3 + 0 == value + 0 { print $k[name] }' "$dir/work-precision.csv"
+}
+true_that() { awk "BEGIN { exit !($1) }"; }
+# order INTEGRATOR COARSE FINE WANTED: of the error of velocity against the steps that were made
+order() {
+  local a b p q
+  a=$(column "$1" "$2" velocity) b=$(column "$1" "$3" velocity)
+  p=$(column "$1" "$2" steps) q=$(column "$1" "$3" steps)
+  echo "# $1: error $a in $p steps, $b in $q: order $(awk "BEGIN { print log($a / $b) / log($q / $p) }"), wanted $4"
+  true_that "log($a / $b) / log($q / $p) > $4 - 0.15 && log($a / $b) / log($q / $p) < $4 + 0.25"
+}
+
+# ---- a linear wave: f is smooth, errors are the schemes' own
+
+dir=wave
+methods=leapfrog,erk:bogacki-shampine-4-2-3,erk:heun-euler-2-1-2,erk:zonneveld-5-3-4
+run 0 "$sphode" work-precision "$wave" -o wave --fixed --integrators $methods --cfl 2,0.5,0.25,0.125 &&
+  [[ -s wave/work-precision.csv && -s wave/work-precision.txt ]] &&
+  for m in ${methods//,/ }; do grep -q "^$m$" out || break; done
+ok $? "a sweep of fixed steps leaves tables"
+good=0
+order leapfrog 0.25 0.125 2 || good=1
+order erk:heun-euler-2-1-2 0.25 0.125 2 || good=1
+order erk:bogacki-shampine-4-2-3 0.25 0.125 3 || good=1
+order erk:zonneveld-5-3-4 0.25 0.125 4 || good=1
+ok $good "orders of four schemes"
+good=0
+stages() { # INTEGRATOR EVALUATIONS-A-STEP
+  local steps evaluations
+  steps=$(column "$1" 0.25 steps) evaluations=$(column "$1" 0.25 evaluations)
+  echo "# $1: $evaluations evaluations in $steps steps"
+  true_that "$evaluations >= $2 * $steps && $evaluations <= $2 * $steps + 3" || good=1
+}
+stages leapfrog 1
+stages erk:heun-euler-2-1-2 2
+stages erk:bogacki-shampine-4-2-3 3
+stages erk:zonneveld-5-3-4 5
+ok $good "evaluations are the stages of each step"
+[[ $(column leapfrog 2 velocity) == nan ]] && column leapfrog 2 outcome | grep -q "admissible" &&
+  grep -q "cfl 2 .*failed: " out
+ok $? "twice the stability limit is a row with its reason"
+floor=$(sed -n 's/^# reference:.* velocity \([^,]*\),.*/\1/p' wave/work-precision.csv)
+least=$(awk -F, '/^#|^integrator/ { next } $11 + 0 > 0 && (!n++ || $11 < least) { least = $11 } END { print least }' wave/work-precision.csv)
+echo "# reference $floor, least $least"
+true_that "$floor > 0 && $floor <= 0.1 * $least"
+ok $? "the reference is ten times better than the best"
+if command -v gnuplot >/dev/null; then
+  [[ -s wave/evaluations.png && -s wave/seconds.png ]]
+  ok $? "two pictures"
+else
+  ok 0 "two pictures # SKIP no gnuplot"
+fi
+
+# ---- a gas: tolerances, energy, other keys and ends
+
+dir=sod
+small=(--set parameters.n=50 --until 0.1s)
+run 0 "$sphode" work-precision "$sod" "${small[@]}" -o sod --tolerances 1e-4,1e-6 --cfl 0.35,0.2 \
+  --integrators erk:bogacki-shampine-4-2-3,erk:bogacki-shampine-4-2-3+dt_max=1e-3,leapfrog --field energy -t 2
+ok $? "a sweep of tolerances"
+m=erk:bogacki-shampine-4-2-3
+true_that "$(column $m 1e-6 energy) < 0.2 * $(column $m 1e-4 energy) && $(column $m 1e-6 steps) > 2 * $(column $m 1e-4 steps)" &&
+  true_that "$(column $m+dt_max=1e-3 1e-4 steps) == 100 && $(column leapfrog 0.2 energy) < $(column leapfrog 0.35 energy)"
+ok $? "a smaller tolerance is a smaller error; keys behind a + are the integrator's"
+grep -q "^Evaluations for an error of energy" out && grep -q "^end  *t = 0.1 s, 100 particles" out
+ok $? "the summary tells the field and the end that were asked for"
+
+# ---- refused
+
+refused 1 "an unknown integrator tells the nearest" "leapfog.* is unknown; the nearest is .leapfrog" "$wave" --integrators leapfog -o x
+refused 1 "an unknown key behind a +" "unknown key 'lniear'" "$wave" --integrators leapfrog+lniear=pcg -o x
+refused 1 "a case that is not there" "No such file" nothing.yml -o x
+refused 1 "an end without its unit's kind" "run.end" "$wave" --until 3kg -o x
+refused 1 "a directory with results" "holds a run that ended" "$sod" "${small[@]}" -o sod
+refused 2 "a tolerance that is no number" "--tolerances 1e-3,x: wanted" "$wave" --tolerances 1e-3,x -o x
+refused 2 "a step of zero" "--cfl 0: wanted" "$wave" --cfl 0 -o x
+refused 2 "an unknown field tells the known ones" "known are position, velocity, density" "$wave" --field pressure -o x
+[[ ! -e x ]]
+ok $? "what is refused writes nothing"
+echo "1..$count"
