@@ -16,7 +16,7 @@
 
 enum { HALVINGS = 7 };                  /* of the reference, at most */
 static const double PATIENCE = 50;      /* a reference costs at most so many of the longest run */
-static const double ROUNDING = 1e-11;   /* no reference needs to be better */
+static const double ROUNDING = 1e-13;   /* no reference needs to be better */
 static const double CFL_DEFAULT = 0.35; /* of the library, without error control */
 
 static double cpu_now(void)

@@ -219,18 +219,18 @@ static void widen(span *s, double value)
 /* Powers of ten around the errors, costs with a margin; runs that went astray stay outside. */
 static void range(const work *w, sph_plot_def *def, double (*of)(const work_run *r))
 {
-  span error = {INFINITY, 0}, cost = {INFINITY, 0};
+  span error = {INFINITY, 0}, needs = {INFINITY, 0};
   for (int k = 0; k < w->runs; k++) {
     const work_run *r = &w->run[k];
     if (!(r->error[w->shown] > 0 && r->error[w->shown] < ASTRAY)) continue;
     widen(&error, r->error[w->shown]);
-    widen(&cost, of(r));
+    widen(&needs, of(r));
   }
   if (!(error.low < INFINITY)) return;
   def->y_min = pow(10, floor(log10(error.low)));
   def->y_max = fmax(pow(10, ceil(log10(error.high))), 10 * def->y_min);
-  def->x_min = cost.low / 1.25;
-  def->x_max = cost.high * 1.25;
+  def->x_min = needs.low / 1.25;
+  def->x_max = needs.high * 1.25;
 }
 
 static int draw(const work *w, const char *column, double (*of)(const work_run *r),

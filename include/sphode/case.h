@@ -29,7 +29,7 @@ SPH_API void sph_case_free(sph_case *c);
 /* The simulation of the case, without outputs; threads: 0 takes what the case says.  NULL: see
  * error. */
 SPH_API sph_sim *sph_case_build(const sph_case *c, int threads, sph_error *error);
-/* The integrator that the case names, as its simulation has it; method lives as long as the case. */
+/* The integrator that the case names, as its simulation has it; its strings live as long as c. */
 SPH_API void sph_case_build_integrator(const sph_case *c, sph_integrator_def *def);
 /* The outputs of the case, into a directory; command: the command line, kept in the snapshots;
  * NULL: none. */

@@ -58,10 +58,11 @@ static void add_log(sph_text *script, const char *axis, double lo, double hi)
     sph_text_add(script, "set format %s '10^{%%T}'\n", axis);
     return;
   }
-  sph_text_add(script, "set %stics (", axis);
-  for (double power = pow(10, floor(log10(lo))); power <= hi; power *= 10)
+  sph_text_add(script, "set format %s '%%g'\nset %stics (", axis, axis);
+  double power = pow(10, floor(log10(lo)));
+  for (; power <= hi; power *= 10)
     sph_text_add(script, "%.9g, %.9g, %.9g, ", power, 2 * power, 5 * power);
-  sph_text_add(script, "%.9g)\nset format %s '%%g'\n", hi, axis);
+  sph_text_add(script, "%.9g)\n", power);
 }
 
 static void add_head(const sph_plot_def *def, const char *x_title, const char *y_title,

@@ -44,10 +44,10 @@ fails() { # name, what the message says, arguments...
 
 run 0 "$sphode" --version && grep -qx "sphode [0-9.]*" out
 ok $? "--version"
-run 0 "$sphode" --help && [[ ! -s err ]] && for c in run check info plot; do grep -q "^  $c " out || break; done
+run 0 "$sphode" --help && [[ ! -s err ]] && for c in run check info plot work-precision; do grep -q "^  $c " out || break; done
 ok $? "--help names the commands"
 good=0
-for c in run check info plot; do run 0 "$sphode" $c --help && grep -q "^Usage: sphode $c " out || good=1; done
+for c in run check info plot work-precision; do run 0 "$sphode" $c --help && grep -q "^Usage: sphode $c " out || good=1; done
 ok $good "each command has a help"
 usage "no command" "no command"
 usage "an unknown command" "'rnu' is no command" rnu

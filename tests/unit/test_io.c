@@ -569,6 +569,43 @@ static void series_round_trip(void **state)
   sph_sim_free(sim);
 }
 
+/* Rows of one word among others; a picture with logarithmic axes. */
+static void rows_by_a_word(void **state)
+{
+  (void)state;
+  sph_error error = {0};
+  double *value = NULL;
+  char title[128], csv[300];
+  long n = 0;
+  snprintf(csv, sizeof csv, "%s", in("rows.csv"));
+  FILE *file = fopen(in("rows.csv"), "w");
+  assert_non_null(file);
+  fputs("name, x [s],y\nleapfrog ,1,9\nleap,2,3\nleapfrog,30,nan\nleapfrog,300,40\n", file);
+  fclose(file);
+  sph_csv_rows which = {"name", "leapfrog"};
+  assert_int_equal(sph_csv_read_rows(in("rows.csv"), which, "x", 0, &value, &n, title, &error),
+                   SPH_OK);
+  assert_int_equal(n, 3);
+  assert_string_equal(title, "x [s]");
+  assert_true(value[0] == 1 && value[1] == 30 && value[2] == 300);
+  sph_memory_free(value);
+  which.column = "nam";
+  assert_true(sph_csv_read_rows(in("rows.csv"), which, "x", 0, &value, &n, title, &error) < 0);
+  assert_non_null(strstr(error.text, "no column \"nam\""));
+  error = (sph_error){0};
+  sph_plot_curve curve = {.csv = csv, .x = "x", .y = "y", .where = "name", .is = "leap"};
+  sph_plot_curve curves[2] = {curve, curve};
+  curves[1].is = "leapfrog";
+  curves[1].points = 2;
+  sph_plot_def def = {.log_x = 1, .log_y = 1, .y_min = 1, .y_max = 50};
+  int status = sph_plot_series(curves, 2, &def, in("rows.png"), &error);
+  assert_true(status == SPH_OK || status == SPH_ERR_UNBUILT); /* the script is there */
+  const char *script = slurp("rows.gp");
+  assert_non_null(strstr(script, "set logscale x\nset format x '10^{%T}'"));
+  assert_non_null(strstr(script, "set ytics (1, 2, 5, 10, 20, 50, 100)"));
+  assert_non_null(strstr(script, "with linespoints"));
+}
+
 /* ---- JSON: RFC 8259, by recursive descent; each returns what follows, NULL for no JSON ---- */
 
 static const char *after_blanks(const char *s)
@@ -739,6 +776,7 @@ int main(void)
       TEST(semi_axis_of_a_lattice),
       TEST(wrong_monitors_are_refused),
       TEST(series_round_trip),
+      TEST(rows_by_a_word),
       TEST(summary_tells_the_truth),
       TEST(series_files_are_json),
       TEST(pictures_are_drawn_or_refused),
