@@ -196,40 +196,43 @@ int sph_integrator_table_info(int k, sph_integrator_info *info)
 }
 
 /* Letters of "erk:" and the like; 0: none. */
-static int prefix(const char *name)
+static size_t prefix(const char *name)
 {
   const char *colon = strchr(name, ':');
-  return colon ? (int)(colon - name) + 1 : 0;
+  return colon ? (size_t)(colon - name) + 1 : 0;
 }
 
-/* Rows of the kind of that name; of all kinds where there are none, then one row as "erk:..." for
- * all of its kind. */
-static void list(char *known, size_t size, const char *name)
+static int same_kind(const char *a, const char *b)
 {
-  const char *row, *last = "";
-  int kind = prefix(name), found = 0;
-  for (int k = 0; kind && (row = sph_integrator_table_name(k)); k++)
-    found |= !strncmp(name, row, (size_t)kind);
-  for (int k = 0; (row = sph_integrator_table_name(k)); k++) {
-    size_t used = strlen(known);
-    int n = prefix(row), again = n && !strncmp(row, last, (size_t)n);
-    const char *comma = used ? ", " : "";
-    last = row;
-    if (found && !strncmp(name, row, (size_t)kind))
-      snprintf(known + used, size - used, "%s%s", comma, row);
-    if (!found && !again)
-      snprintf(known + used, size - used, "%s%.*s%s", comma, n ? n : 63, row, n ? "..." : "");
-  }
+  size_t n = prefix(a);
+  return n == prefix(b) && !strncmp(a, b, n);
 }
 
+/* Is it "erk:..." or the like, with that beginning known? */
+static int kind_is_known(const char *name)
+{
+  const char *row;
+  for (int k = 0; prefix(name) && (row = sph_integrator_table_name(k)); k++)
+    if (same_kind(name, row)) return 1;
+  return 0;
+}
+
+/* Tells the rows of its kind; without a known one all kinds, each but our own by its beginning. */
 static int unknown(const char *name, sph_error *error)
 {
   char known[800] = "";
-  const char *nearest = own[0].name;
-  const char *row;
-  for (int k = 0; (row = sph_integrator_table_name(k)); k++)
-    if (sph_name_distance(name, row) < sph_name_distance(name, nearest)) nearest = row;
-  list(known, sizeof known, name);
+  const char *row, *last = "", *nearest = NULL;
+  int kind = kind_is_known(name);
+  for (int k = 0; (row = sph_integrator_table_name(k)); last = row, k++) {
+    size_t used = strlen(known);
+    const char *comma = used ? ", " : "";
+    if (kind && !same_kind(name, row)) continue;
+    if (!nearest || sph_name_distance(name, row) < sph_name_distance(name, nearest)) nearest = row;
+    if (kind || !prefix(row))
+      snprintf(known + used, sizeof known - used, "%s%s", comma, row);
+    else if (!same_kind(row, last))
+      snprintf(known + used, sizeof known - used, "%s%.*s...", comma, (int)prefix(row), row);
+  }
   sph_error_set(error, SPH_ERR_ARGUMENT,
                 "integrator \"%.60s\" is unknown; the nearest is \"%s\", known are %s", name,
                 nearest, known);
