@@ -43,6 +43,12 @@ SPH_API int sph_sim_status(const sph_sim *sim);
 SPH_API int sph_sim_fail(sph_sim *sim, int status, const char *format, ...) SPH_PRINTF(3, 4);
 
 SPH_API void sph_sim_add_term(sph_sim *sim, sph_term term);
+/* The terms of that name belong to a part of f: "explicit" or "slow" (the same; all terms at
+ * first), "implicit" for integrators imex:<table>, "fast" for mri:<coupling>.  After the terms were
+ * added, before the run.  Implicit can be viscosity-laminar, viscosity-artificial, conduction and
+ * delta; where no part is set, viscosity-laminar and conduction are, with imex.  dx/dt = v belongs
+ * to the part of the pressure force. */
+SPH_API void sph_sim_set_part(sph_sim *sim, const char *term, const char *part);
 SPH_API void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def); /* copied */
 SPH_API void sph_sim_add_output(sph_sim *sim, sph_output output);
 /* Called after every accepted step; a return != 0 stops the run with SPH_ERR_STOPPED, outputs

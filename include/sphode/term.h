@@ -97,7 +97,10 @@ struct sph_term {
   /* Pairs of fluid particles with fluid and wall ones, tile by tile, beside the built-in terms.
    * Called from several threads at once: read ctx, do not write to it. */
   void (*pair)(const sph_term *term, const sph_tile *tile);
-  const char *reads; /* fields that pair wants of both ends, as "density sound_speed"; copied */
+  /* Fields that pair wants of both ends, as "density sound_speed".  Of a term without pair: ""
+   * where body and dt_max read nothing that is not integrated (p, c, u beside another energy, a
+   * summed density): a part of f with it then costs no more.  Copied. */
+  const char *reads;
   const char *adds; /* what pair adds to, as "along_r ds": only that is summed; NULL: all; copied */
   sph_scalar scalar; /* what it integrates besides; scalar.name NULL: nothing */
   double (*dt_max)(const sph_term *term, const sph_particles *particles); /* [s]; NULL: no limit */

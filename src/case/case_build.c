@@ -229,6 +229,7 @@ static int add_heating(const builder *b, const sph_case_node *map)
     return sph_case_schema_fail(b->c, b->error, node, 1, value.column, "power: %s", value.problem);
   sph_sim_add_term(b->sim, (sph_term){.name = "heat-source",
                                       .body = heat,
+                                      .reads = "",
                                       .ctx = formula,
                                       .free = sph_case_value_formula_free});
   return told(b, map);
@@ -258,6 +259,20 @@ static sph_term term_of(const sph_case_node *map)
   if (!strcmp(name, "harmonic")) return sph_term_harmonic(get_number(map, "omega", 0));
   get_vector(map, "acceleration", g);
   return sph_term_gravity(g);
+}
+
+static int add_term(const builder *b, const sph_case_node *map)
+{
+  int status;
+  if (!strcmp(map->key, "heat-source"))
+    status = add_heating(b, map);
+  else {
+    sph_sim_add_term(b->sim, term_of(map));
+    status = told(b, map);
+  }
+  if (status || !child_of(map, "part")) return status;
+  sph_sim_set_part(b->sim, map->key, get_text(map, "part", NULL));
+  return told(b, child_of(map, "part"));
 }
 
 static sph_integrator_def integrator_of(const sph_case_node *map)
@@ -315,14 +330,8 @@ static int build_parts(const builder *b)
   int status = told(b, child_of(root, "spacing"));
   for (node = child_of(root, "groups")->first; node && !status; node = node->next)
     status = build_group(b, node);
-  for (node = child_of(root, "terms")->first; node && !status; node = node->next) {
-    if (!strcmp(node->key, "heat-source")) {
-      status = add_heating(b, node);
-      continue;
-    }
-    sph_sim_add_term(b->sim, term_of(node));
-    status = told(b, node);
-  }
+  for (node = child_of(root, "terms")->first; node && !status; node = node->next)
+    status = add_term(b, node);
   if (!status) status = set_integrator(b, child_of(root, "integrator"));
   for (node = child_of(root, "groups")->first; node && !status; node = node->next)
     status = set_initial(b, node);

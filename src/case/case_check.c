@@ -9,7 +9,7 @@
 
 #include "case_material.h"
 #include "case_schema.h"
-#include "name.h"
+#include "words.h"
 
 static int check_value(sph_case *c, const sph_case_key *key, sph_case_node *node);
 static int check_map(sph_case *c, const char *mapping, sph_case_node *node);
@@ -19,40 +19,23 @@ static int check_map(sph_case *c, const char *mapping, sph_case_node *node);
 
 /* ---- words */
 
-typedef struct words {
-  const char *wanted;
-  char known[300];   /* "a, b, c" */
-  char nearest[100]; /* "did you mean 'b'? " or "" */
-  int best;
-} words;
-
-static void words_add(words *w, const char *word)
-{
-  size_t n = strlen(w->known);
-  snprintf(w->known + n, sizeof w->known - n, "%s%s", n ? ", " : "", word);
-  int d = sph_name_distance(w->wanted, word);
-  if (3 * d > (int)strlen(word) + 2 || (w->nearest[0] && d >= w->best)) return;
-  w->best = d;
-  snprintf(w->nearest, sizeof w->nearest, "did you mean '%.40s'? ", word);
-}
-
 static int check_word(sph_case *c, const sph_case_key *key, sph_case_node *node)
 {
   char word[80];
-  words w = {.wanted = node->text};
+  sph_words w = {.wanted = node->text};
   for (int k = 0; sph_case_schema_choice(key, k, word); k++) {
     if (!strcmp(node->text, word)) return SPH_OK;
-    words_add(&w, word);
+    sph_words_add(&w, word);
   }
   return FAIL(node, 0, "%s: found '%.40s'; %sknown: %s", key->name, node->text, w.nearest, w.known);
 }
 
 static int unknown_key(sph_case *c, const char *mapping, const sph_case_node *node)
 {
-  words w = {.wanted = node->key};
+  sph_words w = {.wanted = node->key};
   for (int k = 0; sph_case_schema_key(k); k++)
     if (!strcmp(sph_case_schema_key(k)->mapping, mapping))
-      words_add(&w, sph_case_schema_key(k)->name);
+      sph_words_add(&w, sph_case_schema_key(k)->name);
   return FAIL_KEY(node, "unknown key '%.40s' in %s; %sknown: %s", node->key, mapping, w.nearest,
                   w.known);
 }

@@ -9,6 +9,7 @@
 #include "cpu.h"
 #include "memory.h"
 #include "sim_data.h"
+#include "sim_parts.h"
 #include "sim_prepare.h"
 #include "sim_rhs.h"
 #include "sim_run.h"
@@ -251,8 +252,10 @@ int sph_sim_step(sph_sim *sim)
 {
   double begin = sph_clock();
   int status = sph_sim_prepare(sim);
+  if (!status) status = sph_sim_parts_fit(sim);
   if (!status)
-    status = sph_sim_run_step(sim, sim->time + 1e9 * sim->limit[SPH_BOUND_CFL]); /* no stop */
+    status = sph_sim_run_step(sim, sim->time + 1e9 * fmin(sim->limit[SPH_BOUND_CFL], 1e9)); /* no
+                                                                                     stop */
   if (sim) sim->seconds += sph_clock() - begin;
   return status;
 }

@@ -44,9 +44,9 @@ static void count(sph_evaluation *e)
 
 /* What one group's rates say. */
 typedef struct extremes {
-  double v2, a2, slowest; /* max v^2, max a^2, min of h/(c (1 + 0.6 alpha) + |v|) */
-  double lightest;        /* min rho */
-  long bad;               /* particles with a rate that is not finite */
+  double v2, a2, speed; /* max v^2, max a^2, max of c (1 + 0.6 alpha) + |v| */
+  double lightest;      /* min rho */
+  long bad;             /* particles with a rate that is not finite */
 } extremes;
 
 /* Magnitude of all rates but the acceleration. */
@@ -58,10 +58,20 @@ static double others(const sph_sim *sim, const sph_view *view, long i)
   return sum;
 }
 
-static extremes look(const sph_sim *sim, const sph_view *view)
+/* alpha of the artificial viscosities among these terms. */
+static double damping(const sph_sim *sim, unsigned terms)
 {
+  return fmax(terms & SPH_ARTIFICIAL ? sim->terms.alpha : 0,
+              terms & SPH_SIGNAL ? sim->terms.signal_alpha : 0);
+}
+
+static extremes look(const sph_evaluation *e, const sph_view *view)
+{
+  const sph_sim *sim = e->sim;
+  const int acoustic = e->part->acoustic;
   double v2_max = 0, a2_max = 0, speed_max = 0, volume_max = 0;
-  double damping = 1 + 0.6 * fmax(sim->terms.alpha, sim->terms.signal_alpha);
+  double sound = acoustic + 0.6 * damping(sim, e->part->limit_terms);
+  int moving = acoustic || sound > 0;
   long bad = 0, n = view->n;
 #pragma omp parallel for num_threads(sim->threads) schedule(static)                                \
     reduction(max : v2_max, a2_max, speed_max, volume_max) reduction(+ : bad) if (n > PARALLEL_MIN)
@@ -71,61 +81,74 @@ static extremes look(const sph_sim *sim, const sph_view *view)
       v2 += view->v[d][i] * view->v[d][i];
       a2 += view->dv[d][i] * view->dv[d][i];
     }
-    double speed = view->c[i] * damping + sqrt(v2);
+    double speed = moving ? view->c[i] * sound + acoustic * sqrt(v2) : 0;
     v2_max = v2 > v2_max ? v2 : v2_max;
     a2_max = a2 > a2_max ? a2 : a2_max;
     speed_max = speed > speed_max ? speed : speed_max;
     volume_max = 1 / view->rho[i] > volume_max ? 1 / view->rho[i] : volume_max;
     bad += !(a2 + v2 + others(sim, view, i) < INFINITY);
   }
-  return (extremes){v2_max, a2_max, sim->h_sound / speed_max, 1 / volume_max, bad};
+  return (extremes){v2_max, a2_max, speed_max, 1 / volume_max, bad};
 }
 
 /* A gas may meet itself head on: its approach speed is up to 2 max |v|. */
-static double slowest(const sph_sim *sim, const sph_group *group, const extremes *x)
+static double slowest(const sph_evaluation *e, const sph_group *group, const extremes *x)
 {
-  if (!group->eos.thermal) return x->slowest;
-  double beta = fmax(sim->terms.beta, sim->terms.signal_beta / 2);
-  return sim->h_sound / (sim->h_sound / x->slowest + (1 + 1.2 * beta) * sqrt(x->v2));
+  const sph_sim *sim = e->sim;
+  const unsigned terms = e->part->limit_terms;
+  double beta = fmax(terms & SPH_ARTIFICIAL ? sim->terms.beta : 0,
+                     terms & SPH_SIGNAL ? sim->terms.signal_beta / 2 : 0);
+  double speed = x->speed;
+  if (group->eos.thermal) speed += (e->part->acoustic + 1.2 * beta) * sqrt(x->v2);
+  return sim->h_sound / speed; /* no speed: no limit */
 }
 
 /* 0.125 h^2/nu (Morris, Fox & Zhu 1997); the central form is up to three times as stiff, for
  * compression.  At an interface the larger viscosity meets the smaller density. */
-static double viscous(const sph_sim *sim, const extremes *x)
+static double viscous(const sph_evaluation *e, const extremes *x)
 {
-  double eta = 0, stiff = sim->loop_terms & SPH_MCG ? 3 : 1;
-  if (!(sim->loop_terms & (SPH_MORRIS | SPH_MCG))) return INFINITY;
+  const sph_sim *sim = e->sim;
+  const unsigned terms = e->part->limit_terms;
+  double eta = 0, stiff = terms & SPH_MCG ? 3 : 1;
+  if (!(terms & (SPH_MORRIS | SPH_MCG))) return INFINITY;
   for (int g = 0; g < sim->groups; g++)
     if (!sim->group[g]->wall) eta = fmax(eta, sim->group[g]->viscosity);
   return eta > 0 ? 0.125 * sim->h * sim->h * x->lightest / (eta * stiff) : INFINITY;
 }
 
 /* 0.125 h^2 rho c_v/kappa (Cleary & Monaghan 1999). */
-static double conduction(const sph_sim *sim, const sph_group *group, const extremes *x)
+static double conduction(const sph_evaluation *e, const sph_group *group, const extremes *x)
 {
-  if (!(sim->loop_terms & SPH_CONDUCTION) || group->conductivity == 0) return INFINITY;
+  const sph_sim *sim = e->sim;
+  if (!(e->part->limit_terms & SPH_CONDUCTION) || group->conductivity == 0) return INFINITY;
   return 0.125 * sim->h * sim->h * x->lightest * group->eos.c_v / group->conductivity;
 }
+
+static void lower(double *limit, double dt) { *limit = fmin(*limit, dt); }
 
 int sph_sim_admit(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
+  const sph_part *part = e->part;
   double limit[SPH_BOUND_COUNT];
   for (int k = 0; k < SPH_BOUND_COUNT; k++) limit[k] = INFINITY;
-  limit[SPH_BOUND_USER] = sim->limit[SPH_BOUND_USER];
+  limit[SPH_BOUND_USER] = e->limit_user;
   if (sim->fresh) count(e);
-  sim->pairs += sim->pairs_now;
+  if (part->pairs) sim->pairs += sim->pairs_now;
   for (int g = 0; g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
     if (group->wall) continue;
-    const extremes x = look(sim, &e->view[g]);
+    const extremes x = look(e, &e->view[g]);
     if (x.bad) return sph_sim_admit_retry(sim, "rates of %ld particles are not finite", x.bad);
-    limit[SPH_BOUND_CFL] = fmin(limit[SPH_BOUND_CFL], slowest(sim, group, &x));
-    limit[SPH_BOUND_VISCOUS] = fmin(limit[SPH_BOUND_VISCOUS], viscous(sim, &x));
-    limit[SPH_BOUND_CONDUCTION] = fmin(limit[SPH_BOUND_CONDUCTION], conduction(sim, group, &x));
-    if (x.a2 > 0)
-      limit[SPH_BOUND_FORCE] = fmin(limit[SPH_BOUND_FORCE], 0.25 * sqrt(sim->h / sqrt(x.a2)));
+    lower(&limit[SPH_BOUND_CFL], slowest(e, group, &x));
+    lower(&limit[SPH_BOUND_VISCOUS], viscous(e, &x));
+    lower(&limit[SPH_BOUND_CONDUCTION], conduction(e, group, &x));
+    if (x.a2 > 0) lower(&limit[SPH_BOUND_FORCE], 0.25 * sqrt(sim->h / sqrt(x.a2)));
   }
-  memcpy(sim->limit, limit, sizeof limit); /* else they stay those of the last good evaluation */
+  /* Else they stay those of the last good evaluation. */
+  if (part == &sim->part[SPH_PIECE_FAST])
+    memcpy(sim->limit_fast, limit, sizeof limit);
+  else if (part != &sim->part[SPH_PIECE_IMPLICIT] && part != &sim->part[SPH_PIECE_DRIFT])
+    memcpy(sim->limit, limit, sizeof limit);
   return SPH_OK;
 }

@@ -13,6 +13,31 @@
 
 enum { SPH_OUTPUTS_MAX = 16, SPH_METHOD_MAX = 64 };
 
+/* Part SPH_WHOLE is f; the others are enum sph_piece. */
+enum { SPH_WHOLE = SPH_PIECE_COUNT, SPH_PARTS };
+
+/* Bits of terms, not of how they are added up. */
+enum {
+  SPH_PAIR_TERMS = SPH_CONTINUITY | SPH_PRESSURE_FORCE | SPH_VISCOUS | SPH_DIFFUSION |
+                   SPH_CONDUCTIVITY | SPH_CONDUCTION | SPH_XSPH
+};
+
+/* A part of f: its terms, and the phases that an evaluation of them needs (sim_parts.c). */
+typedef struct sph_part {
+  unsigned terms;  /* bits of its fluid <- fluid loop; continuity also where its sum is wanted */
+  unsigned rates;  /* bits of the terms whose rates it adds */
+  unsigned called; /* bit k: terms.call[k] */
+  int positions, gravity; /* has dx/dt = v; dv/dt = g */
+  /* What its evaluations limit: steps by waves and motion, and these terms. */
+  int acoustic;
+  unsigned limit_terms, limit_called;
+  int lists, density, eos, walls, gradients, pairs; /* phases */
+  /* Registered pair terms, the fields that they read, what they add to. */
+  int tiles;
+  unsigned tile_fields, tile_adds;
+  sph_tile_term tile[SPH_TILE_TERMS];
+} sph_part;
+
 /* A group's sorted copy: what the pair loops read, and the sums that they make. */
 typedef struct sph_sorted {
   long room;                  /* particles: a multiple of 8 */
@@ -65,21 +90,21 @@ struct sph_sim {
   unsigned loop_terms; /* bits of the fluid <- fluid loop */
   int fluid_sums;      /* sums that its loops make */
   int needs_temperature;
-  int tile_terms; /* registered pair terms, the fields that they read, and what they add to */
-  unsigned tile_fields, tile_adds;
-  sph_tile_term tile[SPH_TILE_TERMS];
+  sph_part part[SPH_PARTS];
   fluid_constants constants;              /* of no interaction: for walls and gradients */
   double F_scale, W_scale;                /* sigma/h^(d+2), sigma/h^d */
   double scale[SPH_SETS_MAX][SPH_FIELDS]; /* error weights: physical scale of each field */
   double step_scale_v;                    /* V of the error weights [m/s] */
 
   /* Moving. */
-  double time;                   /* of the state shown */
-  double start;                  /* of the run: frames count from here */
-  int listed;                    /* neighbour lists exist */
-  int fresh;                     /* ... and have not been counted yet */
-  int derived;                   /* pressure etc. are those of the state shown */
-  double limit[SPH_BOUND_COUNT]; /* step limits of the last evaluation [s] */
+  double time;  /* of the state shown */
+  double start; /* of the run: frames count from here */
+  int listed;   /* neighbour lists exist */
+  int fresh;    /* ... and have not been counted yet */
+  int derived;  /* pressure etc. are those of the state shown */
+  double
+      limit[SPH_BOUND_COUNT]; /* step limits of the last evaluation, but not by fast terms, [s] */
+  double limit_fast[SPH_BOUND_COUNT]; /* ... of the fast part */
   long near;        /* particles nearer than 0.1 dx to another, at the last list build */
   double pairs_now; /* directed pairs inside the support, at the last list build */
   double pairs, seconds, rhs_seconds;

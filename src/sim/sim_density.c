@@ -5,7 +5,7 @@
 int sph_sim_density(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
-  if (!sim->terms.summed) return SPH_OK;
+  if (!e->part->density) return SPH_OK;
   sph_pair_function *loop = sph_density_loop(sim->isa, sim->kernel_number, sim->dim);
   const fluid_constants k = {.inverse_h = 1 / sim->h};
   for (int g = 0; g < sim->groups; g++) sph_sim_pairs_pack_positions(e, g);

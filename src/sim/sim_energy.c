@@ -61,14 +61,15 @@ double sph_sim_energy_rate(const sph_group *group, const sph_view *view, long i,
 {
   const double rho = view->rho[i], gamma = group->eos.gamma;
   const double per_pressure = compression / (rho * rho);
-  double rate = heat + (group->eos.thermal ? view->p[i] * per_pressure : 0), pT = 0;
+  const int works = group->eos.thermal && compression != 0; /* else there may be no pressure */
+  double rate = heat + (works ? view->p[i] * per_pressure : 0), pT = 0;
   switch (sph_group_data_energy(group)) {
   case SPH_TOTAL_ENERGY:
     for (int d = 0; d < group->dim; d++) rate += view->v[d][i] * view->dv[d][i];
     return rate;
   case SPH_ENTROPY: return (gamma - 1) * pow(rho, 1 - gamma) * heat;
   case SPH_TEMPERATURE:
-    if (group->eos.thermal) sph_eos_thermal_pressure(&group->eos, 1, &rho, &view->energy[i], &pT);
+    if (works) sph_eos_thermal_pressure(&group->eos, 1, &rho, &view->energy[i], &pT);
     return (heat + pT * per_pressure) / group->eos.c_v;
   default: return rate;
   }

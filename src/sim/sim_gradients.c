@@ -50,7 +50,7 @@ static void finish(const sph_sim *sim, sph_sorted *sorted, long s)
 int sph_sim_gradients(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
-  if (!(sim->loop_terms & SPH_ANTUONO)) return SPH_OK;
+  if (!e->part->gradients) return SPH_OK;
   sph_pair_function *loop = sph_gradient_loop(sim->isa, sim->kernel_number, sim->dim);
   for (int g = 0; g < sim->groups; g++) {
     if (sim->group[g]->wall) continue;

@@ -12,16 +12,16 @@ int sph_sim_interaction_same_fluid(const sph_group *target, const sph_group *sou
   return source->eos.rho0 == target->eos.rho0 && source->eos.c0 == target->eos.c0;
 }
 
-static unsigned terms_of(const sph_sim *sim, const sph_group *target, const sph_group *source)
+static unsigned terms_of(const sph_part *part, const sph_group *target, const sph_group *source)
 {
-  unsigned terms = sim->loop_terms;
+  unsigned terms = part->terms;
   if (!sph_sim_interaction_same_fluid(target, source)) terms &= ~(unsigned)SPH_DIFFUSION;
   if (!source->wall) return terms;
   terms &= ~(unsigned)(SPH_CONDUCTIVITY | SPH_XSPH);
   if (!(source->boundary.temperature > 0)) terms &= ~(unsigned)SPH_CONDUCTION; /* adiabatic */
   if (!source->boundary.no_slip)
     terms &= ~(unsigned)SPH_VISCOUS;
-  else if ((terms & SPH_VISCOUS) || sim->terms.pairs)
+  else if ((terms & SPH_VISCOUS) || part->tiles)
     terms |= SPH_NO_SLIP;
   return terms | SPH_WALL;
 }
@@ -47,12 +47,12 @@ static void column(const sph_sim *sim, const sph_eos *eos, fluid_constants *k)
   for (int n = 0; n < SPH_FOURTAKAS_TERMS; n++) k->series[n] = (1 / eos->gamma - n) / (n + 1);
 }
 
-fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_group *target,
-                                              const sph_group *source)
+fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part *part,
+                                              const sph_group *target, const sph_group *source)
 {
   const sph_term_set *set = &sim->terms;
   const double h = sim->h;
-  fluid_constants k = {.terms = terms_of(sim, target, source),
+  fluid_constants k = {.terms = terms_of(part, target, source),
                        .inverse_h = 1 / h,
                        .eta2 = 0.01 * h * h,
                        .viscosity_1 = -set->alpha * h,
@@ -72,6 +72,7 @@ fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_grou
 static void add_tiles(sph_evaluation *e, const fluid_constants *fluid, int target, int source)
 {
   sph_sim *sim = e->sim;
+  const sph_part *part = e->part;
   tile_constants k = {.fluid = *fluid,
                       .F_scale = sim->F_scale,
                       .t = e->t,
@@ -81,10 +82,10 @@ static void add_tiles(sph_evaluation *e, const fluid_constants *fluid, int targe
                       .slots = (int)sim->sorted[target].stride,
                       .scalars = sim->terms.scalars,
                       .isothermal = sim->group[source]->boundary.temperature > 0,
-                      .fields = sim->tile_fields,
-                      .adds = sim->tile_adds,
-                      .terms = sim->tile_terms};
-  memcpy(k.term, sim->tile, sizeof k.term);
+                      .fields = part->tile_fields,
+                      .adds = part->tile_adds,
+                      .terms = part->tiles};
+  memcpy(k.term, part->tile, sizeof k.term);
   sph_sim_pairs_loop(sim, sph_tile_loop(sim->isa, sim->kernel_number, sim->dim), target, source,
                      &k);
 }
@@ -93,10 +94,10 @@ void sph_sim_interaction_add(sph_evaluation *e, int target, int source)
 {
   sph_sim *sim = e->sim;
   const fluid_constants k =
-      sph_sim_interaction_constants(sim, sim->group[target], sim->group[source]);
-  if (sim->tile_terms)
+      sph_sim_interaction_constants(sim, e->part, sim->group[target], sim->group[source]);
+  if (e->part->tiles)
     add_tiles(e, &k, target, source);
-  else
+  else if (k.terms & SPH_PAIR_TERMS)
     sph_sim_pairs_loop(sim, sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, k.terms), target,
                        source, &k);
 }
@@ -117,7 +118,8 @@ static int field_number(const sph_sim *sim, const char *name)
 }
 
 /* "density sound_speed": the fields of one term. */
-static int read_fields(sph_sim *sim, const sph_called_term *call, sph_tile_term *tile)
+static int read_fields(sph_sim *sim, sph_part *part, const sph_called_term *call,
+                       sph_tile_term *tile)
 {
   char text[SPH_TERM_READS_MAX], *rest = NULL;
   memcpy(text, call->reads, sizeof text);
@@ -136,19 +138,19 @@ static int read_fields(sph_sim *sim, const sph_called_term *call, sph_tile_term 
       return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "term %s reads more than %d fields", call->name,
                           SPH_TILE_READS);
     tile->read[tile->reads++] = (unsigned char)field;
-    sim->tile_fields |= 1u << field;
+    part->tile_fields |= 1u << field;
     sim->needs_temperature |= field == SPH_TILE_TEMPERATURE;
   }
   return SPH_OK;
 }
 
 /* "along_r du": what a term adds to. */
-static int read_adds(sph_sim *sim, const sph_called_term *call)
+static int read_adds(sph_sim *sim, sph_part *part, const sph_called_term *call)
 {
   static const char *const names[] = {"push", "along_r", "along_v", "drho", "du", "ds"};
   char text[SPH_TERM_READS_MAX], *rest = NULL;
   memcpy(text, call->adds, sizeof text);
-  if (!call->term.adds) sim->tile_adds |= SPH_TILE_ALL;
+  if (!call->term.adds) part->tile_adds |= SPH_TILE_ALL;
   for (char *word = strtok_r(text, " ,", &rest); word; word = strtok_r(NULL, " ,", &rest)) {
     int k = 0;
     while (k < 6 && strcmp(word, names[k])) k++;
@@ -156,22 +158,22 @@ static int read_adds(sph_sim *sim, const sph_called_term *call)
       return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                           "term %s adds to \"%.60s\"; known: push, along_r, along_v, drho, du, ds",
                           call->name, word);
-    sim->tile_adds |= 1u << k;
+    part->tile_adds |= 1u << k;
   }
   return SPH_OK;
 }
 
-int sph_sim_interaction_prepare(sph_sim *sim)
+int sph_sim_interaction_prepare(sph_sim *sim, sph_part *part)
 {
   int status = SPH_OK;
   for (int k = 0; !status && k < sim->terms.called; k++) {
     const sph_called_term *call = &sim->terms.call[k];
-    if (!call->term.pair) continue;
-    sph_tile_term *tile = &sim->tile[sim->tile_terms++];
+    if (!call->term.pair || !(part->called >> k & 1)) continue;
+    sph_tile_term *tile = &part->tile[part->tiles++];
     *tile = (sph_tile_term){.term = &call->term, .scalar = call->scalar};
-    if (call->scalar >= 0) sim->tile_fields |= 1u << (SPH_TILE_SCALAR + call->scalar);
-    status = read_fields(sim, call, tile);
-    if (!status) status = read_adds(sim, call);
+    if (call->scalar >= 0) part->tile_fields |= 1u << (SPH_TILE_SCALAR + call->scalar);
+    status = read_fields(sim, part, call, tile);
+    if (!status) status = read_adds(sim, part, call);
   }
   return status;
 }

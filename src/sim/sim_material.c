@@ -19,7 +19,7 @@ static long not_positive(const double *a, long n, int threads)
 int sph_sim_material_eos(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
-  for (int g = 0; g < sim->groups; g++) {
+  for (int g = 0; g < sim->groups && (e->part->eos || e->part->pairs); g++) {
     const sph_group *group = sim->group[g];
     const sph_view *view = &e->view[g];
     if (group->wall) continue;
@@ -27,6 +27,7 @@ int sph_sim_material_eos(sph_evaluation *e)
     if (bad)
       return sph_sim_admit_retry(sim, "%s: density of %ld particles is not positive", group->name,
                                  bad);
+    if (!e->part->eos) continue;
     sph_sim_energy_internal(sim, group, view);
 #pragma omp parallel for num_threads(sim->threads) schedule(static) reduction(+ : bad)             \
     if (n > PARALLEL_MIN)

@@ -167,8 +167,8 @@ void sph_sim_pairs_loop(sph_sim *sim, sph_pair_function *loop, int target, int s
 }
 
 /* Adds the sums at sorted place s, scaled, to the rates of particle i. */
-static void add_rates(const sph_sim *sim, const sph_group *group, const sph_view *view, long s,
-                      long i)
+static void add_rates(const sph_sim *sim, const sph_part *part, const sph_group *group,
+                      const sph_view *view, long s, long i)
 {
   const sph_sorted *sorted = &sim->sorted[group->index];
   double *const *sum = sorted->sum;
@@ -178,18 +178,29 @@ static void add_rates(const sph_sim *sim, const sph_group *group, const sph_view
   for (int d = 0; d < sim->dim; d++) view->dv[d][i] += sim->F_scale * sum[SPH_SUM_A + d][s];
   if (view->drho) {
     double diffusion = sim->terms.delta * sim->h * group->eos.c0 * sim->F_scale;
-    if (sim->terms.bits & SPH_CONTINUITY) view->drho[i] += compression;
-    if (sim->loop_terms & SPH_DIFFUSION) view->drho[i] += diffusion * sum[SPH_SUM_DIFFUSION][s];
-    if (sim->tile_terms) view->drho[i] += sim->F_scale * sum[SPH_SUM_DENSITY][s];
+    if (part->rates & SPH_CONTINUITY) view->drho[i] += compression;
+    if (part->rates & SPH_DIFFUSION) view->drho[i] += diffusion * sum[SPH_SUM_DIFFUSION][s];
+    if (part->tiles) view->drho[i] += sim->F_scale * sum[SPH_SUM_DENSITY][s];
   }
-  if (sim->loop_terms & SPH_XSPH)
+  if (part->rates & SPH_XSPH)
     for (int d = 0; d < sim->dim; d++) view->dx[d][i] += sim->W_scale * sum[SPH_SUM_DRIFT + d][s];
-  for (int q = 0; q < group->scalars && sim->tile_terms; q++)
+  for (int q = 0; q < group->scalars && part->tiles; q++)
     view->ds[q][i] += sim->F_scale * sum[SPH_SUM_SCALAR + q][s];
   if (!view->du) return;
   double heat = view->du[i] + sim->F_scale * sum[SPH_SUM_HEAT][s];
-  if (!(sim->loop_terms & SPH_PRESSURE_FORCE)) compression = 0;
+  if (!(part->rates & SPH_PRESSURE_FORCE)) compression = 0;
   view->du[i] = sph_sim_energy_rate(group, view, i, heat, compression);
+}
+
+/* Without pairs: only the heating by body terms is made the rate of the energy. */
+static void add_heating(const sph_evaluation *e, int g)
+{
+  const sph_group *group = e->sim->group[g];
+  const sph_view *view = &e->view[g];
+  if (!view->du || view->energy == view->u) return;
+#pragma omp parallel for num_threads(e->sim->threads) schedule(static) if (view->n > PARALLEL_MIN)
+  for (long i = 0; i < view->n; i++)
+    view->du[i] = sph_sim_energy_rate(group, view, i, view->du[i], 0);
 }
 
 static void add_group(sph_evaluation *e, int g)
@@ -199,12 +210,18 @@ static void add_group(sph_evaluation *e, int g)
   sph_sim_pairs_clear(sim, g, sim->fluid_sums);
   for (int s = 0; s < sim->groups; s++) sph_sim_interaction_add(e, g, s);
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (e->view[g].n > PARALLEL_MIN)
-  for (long s = 0; s < e->view[g].n; s++) add_rates(sim, sim->group[g], &e->view[g], s, order[s]);
+  for (long s = 0; s < e->view[g].n; s++)
+    add_rates(sim, e->part, sim->group[g], &e->view[g], s, order[s]);
 }
 
 int sph_sim_pairs_add(sph_evaluation *e)
 {
-  for (int g = 0; g < e->sim->groups; g++)
-    if (!e->sim->group[g]->wall) add_group(e, g);
+  for (int g = 0; g < e->sim->groups; g++) {
+    if (e->sim->group[g]->wall) continue;
+    if (e->part->pairs)
+      add_group(e, g);
+    else
+      add_heating(e, g);
+  }
   return SPH_OK;
 }

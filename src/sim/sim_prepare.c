@@ -8,6 +8,7 @@
 #include "gradient_pair.h"
 #include "memory.h"
 #include "sim_energy.h"
+#include "sim_parts.h"
 #include "sim_rhs.h"
 #include "sim_weights.h"
 #include "sundials.h"
@@ -169,9 +170,9 @@ static int make_terms(sph_sim *sim)
   sim->W_scale = sph_kernel_sigma(sim->kernel, sim->dim) / pow(sim->h, sim->dim);
   sim->F_scale = sim->W_scale / (sim->h * sim->h);
   sim->needs_temperature = (bits & SPH_CONDUCTION) != 0;
-  int status = sph_sim_interaction_prepare(sim);
+  int status = sph_sim_parts_make(sim);
   sim->fluid_sums = bits & SPH_RARE ? SPH_FLUID_SUMS_ALL : SPH_FLUID_SUMS;
-  if (sim->tile_terms) sim->fluid_sums = SPH_SUM_SCALAR + terms->scalars;
+  if (sim->part[SPH_WHOLE].tiles) sim->fluid_sums = SPH_SUM_SCALAR + terms->scalars;
   return status;
 }
 
@@ -223,7 +224,8 @@ static int make_sorted(sph_sim *sim, int g)
   for (int k = 0; k < sim->groups; k++)
     if (sim->group[k]->wall) terms |= SPH_WALL;
   /* Tiles read all slots up to the scalars; the others only those of their terms. */
-  sorted->stride = fluid_slots(sim->dim, terms, sim->tile_terms ? sim->terms.scalars : 0);
+  sorted->stride =
+      fluid_slots(sim->dim, terms, sim->part[SPH_WHOLE].tiles ? sim->terms.scalars : 0);
   sorted->room = sim->group[g]->capacity;
   sorted->record =
       SPH_NEW(double, sorted->room * sorted->stride + SPH_PAIR_SLOTS, "records", &sim->error);
@@ -260,6 +262,14 @@ static int limits(double t, N_Vector y, sph_step_limit *limit, void *ctx)
   return SPH_OK;
 }
 
+static int limits_fast(double t, N_Vector y, sph_step_limit *limit, void *ctx)
+{
+  const sph_sim *sim = ctx;
+  (void)t, (void)y;
+  memcpy(limit->dt, sim->limit_fast, sizeof limit->dt);
+  return SPH_OK;
+}
+
 /* A state between steps: all finite, density positive, a state of the equation of state. */
 static int admissible(double t, N_Vector y, void *ctx)
 {
@@ -293,7 +303,9 @@ static int make_integrator(sph_sim *sim)
                          .drift = (sim->loop_terms & SPH_XSPH) != 0,
                          .rhs = sph_sim_rhs,
                          .weights = sph_sim_weights,
+                         .rhs_piece = sph_sim_rhs_piece,
                          .limits = limits,
+                         .limits_fast = limits_fast,
                          .admissible = admissible,
                          .error = &sim->error};
   sim->integrator = sph_integrator_create(&sim->integrator_def, &problem, sim->time, sim->y,
@@ -306,6 +318,7 @@ int sph_sim_prepare(sph_sim *sim)
   if (!sph_sim_data_ok(sim)) return sph_sim_status(sim);
   if (sim->prepared) return SPH_OK;
   int status = sph_term_set_check(&sim->terms, &sim->error);
+  if (!status && sim->has_integrator) status = sph_sim_parts_fit(sim);
   if (!status) status = check_groups(sim);
   if (!status) status = check_values(sim);
   if (!status) status = check_terms(sim);

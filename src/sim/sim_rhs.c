@@ -1,5 +1,6 @@
-/* The right-hand side dy/dt = f(t, y), phase by phase.  f depends on (t, y) and on the sort order
- * of the last list build only; nothing else is kept from one call to the next. */
+/* The right-hand side dy/dt = f(t, y), phase by phase; each does only what the part of f that is
+ * evaluated needs (sim_parts.c).  f depends on (t, y) and on the sort order of the last list build
+ * only; nothing else is kept from one call to the next. */
 #include "sim_rhs.h"
 
 #include "clock.h"
@@ -15,7 +16,7 @@ static void views(sph_evaluation *e, N_Vector y, N_Vector ydot)
 static int phases(sph_evaluation *e)
 {
   int status = sph_sim_walls_move(e);
-  if (!status) status = sph_sim_lists_update(e); /* neighbors */
+  if (!status && e->part->lists) status = sph_sim_lists_update(e); /* neighbors */
   if (!status) status = sph_comm_exchange(SPH_COMM_STATE);
   if (!status) status = sph_sim_density(e); /* density */
   if (!status) status = sph_comm_exchange(SPH_COMM_DENSITY);
@@ -30,20 +31,30 @@ static int phases(sph_evaluation *e)
   return status;
 }
 
-int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *ctx)
+/* Part number `part` of f. */
+static int evaluate(sph_sim *sim, int part, double t, N_Vector y, N_Vector ydot)
 {
-  sph_sim *sim = ctx;
   double begin = sph_clock();
-  sph_evaluation e = {.sim = sim, .t = t};
+  sph_evaluation e = {.sim = sim, .t = t, .part = &sim->part[part]};
   views(&e, y, ydot);
   int status = phases(&e);
   sim->rhs_seconds += sph_clock() - begin;
   return status;
 }
 
+int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *ctx)
+{
+  return evaluate(ctx, SPH_WHOLE, t, y, ydot);
+}
+
+int sph_sim_rhs_piece(int piece, double t, N_Vector y, N_Vector ydot, void *ctx)
+{
+  return evaluate(ctx, piece, t, y, ydot);
+}
+
 int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y)
 {
-  sph_evaluation e = {.sim = sim, .t = t};
+  sph_evaluation e = {.sim = sim, .t = t, .part = &sim->part[SPH_WHOLE]};
   views(&e, y, NULL);
   int status = sph_sim_walls_move(&e);
   if (!status && !sim->listed) status = sph_sim_lists_update(&e);

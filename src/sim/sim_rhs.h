@@ -9,11 +9,15 @@
 typedef struct sph_evaluation {
   sph_sim *sim;
   double t;
+  const sph_part *part; /* which is evaluated */
+  double limit_user;    /* step limit of body terms [s] */
   sph_view view[SPH_SETS_MAX];
 } sph_evaluation;
 
 /* Pressure, sound speed and walls of the state (t, y), with the lists as they are. */
 int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y);
+/* A part of f: enum sph_piece. */
+int sph_sim_rhs_piece(int piece, double t, N_Vector y, N_Vector ydot, void *sim);
 
 int sph_sim_lists_update(sph_evaluation *e);           /* neighbors */
 int sph_sim_density(sph_evaluation *e);                /* density */
@@ -41,13 +45,13 @@ sph_particles sph_sim_bodies_particles(const sph_evaluation *e, int g);
 
 /* The pair terms of (target <- source), added to the sums of the target. */
 void sph_sim_interaction_add(sph_evaluation *e, int target, int source);
-fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_group *target,
-                                              const sph_group *source);
+fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part *part,
+                                              const sph_group *target, const sph_group *source);
 /* Does density diffuse between them?  Not between a fluid and another, or a wall, of different
  * reference density or sound speed. */
 int sph_sim_interaction_same_fluid(const sph_group *target, const sph_group *source);
-/* Which terms use tiles, and what these hold. */
-int sph_sim_interaction_prepare(sph_sim *sim);
+/* Which terms of a part use tiles, and what these hold. */
+int sph_sim_interaction_prepare(sph_sim *sim, sph_part *part);
 /* Before the run: masses that make the lattice sum the reference density. */
 void sph_sim_density_calibrate(sph_sim *sim);
 /* The simulation asks for a smaller step, for this reason. */

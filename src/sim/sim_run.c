@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "clock.h"
+#include "sim_parts.h"
 #include "sim_prepare.h"
 #include "sim_rhs.h"
 #include "sim_run.h"
@@ -120,6 +121,7 @@ int sph_sim_run_step(sph_sim *sim, double t_stop)
 static int run(sph_sim *sim, double t_end)
 {
   int status = sph_sim_prepare(sim);
+  if (!status) status = sph_sim_parts_fit(sim);
   if (status) return status;
   if (!(isfinite(t_end) && t_end >= sim->time))
     return sph_sim_fail(sim, SPH_ERR_ARGUMENT,

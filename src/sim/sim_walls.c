@@ -21,7 +21,7 @@ static void motion(const sph_group *wall, double t, double displacement[3], doub
 int sph_sim_walls_move(sph_evaluation *e)
 {
   const sph_sim *sim = e->sim;
-  for (int g = 0; g < sim->groups; g++) {
+  for (int g = 0; g < sim->groups && e->part->lists; g++) {
     const sph_group *wall = sim->group[g];
     if (!wall->wall || !wall->boundary.motion) continue;
     double displacement[3], velocity[3], acceleration[3];
@@ -76,11 +76,12 @@ static void finish(const sph_evaluation *e, int g)
 int sph_sim_walls_fill(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
+  if (!e->part->pairs) return SPH_OK;
   sph_pair_function *loop =
       sph_wall_loop(sim->isa, sim->kernel_number, sim->dim, sim->loop_terms & SPH_THERMAL ? 1 : 0);
   sph_sim_material_phi(e, 0);
   sph_sim_pairs_pack(e, 0);
-  for (int g = 0; g < sim->groups; g++) {
+  for (int g = 0; g < sim->groups && e->part->walls; g++) {
     if (!sim->group[g]->wall) continue;
     sph_sim_pairs_pack_positions(e, g);
     sph_sim_pairs_clear(sim, g, SPH_WALL_SUMS);
@@ -88,6 +89,7 @@ int sph_sim_walls_fill(sph_evaluation *e)
       if (!sim->group[f]->wall) sph_sim_pairs_loop(sim, loop, g, f, &sim->constants);
     finish(e, g);
   }
+  if (!e->part->walls) return SPH_OK;
   sph_sim_material_phi(e, 1);
   sph_sim_pairs_pack(e, 1);
   return SPH_OK;

@@ -15,5 +15,6 @@ static double potential(const sph_term *term, const double x[3])
 
 sph_term sph_term_harmonic(double omega)
 {
-  return (sph_term){.name = "harmonic", .omega = omega, .body = body, .potential = potential};
+  return (sph_term){
+      .name = "harmonic", .omega = omega, .body = body, .reads = "", .potential = potential};
 }

@@ -15,5 +15,6 @@ static int body(const sph_term *term, const sph_particles *s)
 
 sph_term sph_term_heat_source(double (*power)(void *ctx, const double x[3], double t), void *ctx)
 {
-  return (sph_term){.name = "heat-source", .power = power, .body = power ? body : NULL, .ctx = ctx};
+  return (sph_term){
+      .name = "heat-source", .power = power, .body = power ? body : NULL, .reads = "", .ctx = ctx};
 }

@@ -153,6 +153,7 @@ static int add_gravity(sph_term_set *set, const sph_term *term, sph_error *error
                            term->g[d]);
     set->g[d] += term->g[d];
   }
+  set->uniform = 1;
   return SPH_OK;
 }
 
@@ -235,7 +236,7 @@ static int add_called(sph_term_set *set, const sph_term *term, sph_error *error)
   snprintf(kept->name, sizeof kept->name, "%s", term->name);
   snprintf(kept->reads, sizeof kept->reads, "%s", term->reads ? term->reads : "");
   kept->term.name = kept->name;
-  kept->term.reads = kept->reads;
+  kept->term.reads = term->reads ? kept->reads : NULL;
   snprintf(kept->adds, sizeof kept->adds, "%s", term->adds ? term->adds : "");
   kept->term.adds = term->adds ? kept->adds : NULL;
   kept->term.form = NULL;

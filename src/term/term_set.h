@@ -8,11 +8,15 @@
 
 enum { SPH_CALLED_TERMS_MAX = 32, SPH_TERM_NAME_MAX = 64, SPH_TERM_READS_MAX = 256 };
 
+/* Beside the bits of pair terms, where terms are told apart: the uniform body force. */
+enum { SPH_UNIFORM = 1 << 30 };
+
 /* A term with callbacks, and its strings. */
 typedef struct sph_called_term {
   sph_term term;
   char name[SPH_TERM_NAME_MAX], reads[SPH_TERM_READS_MAX], adds[SPH_TERM_READS_MAX];
   int scalar; /* its number among the scalars, or -1 */
+  int part;   /* enum sph_term_part_number */
 } sph_called_term;
 
 typedef struct sph_scalar_kept {
@@ -23,6 +27,9 @@ typedef struct sph_scalar_kept {
 
 typedef struct sph_term_set {
   unsigned bits; /* pair terms: SPH_CONTINUITY | ... */
+  /* Of these and SPH_UNIFORM: those of the parts; the others are explicit. */
+  unsigned implicit, fast;
+  int parted, uniform; /* a part was set; there is a uniform body force */
   /* Which terms asked for which row: all must be the same. */
   unsigned form_c2, form_c1, form_phi;
   int summed, calibrate;             /* density is a sum over neighbours */

@@ -48,6 +48,9 @@ typedef struct sph_problem {
                     void *ctx); /* after a step; SPH_RETRY: repeat with half of it; NULL: always */
   /* f piece by piece, for schemes that need that; NULL: f is one piece. */
   int (*rhs_piece)(int piece, double t, N_Vector y, N_Vector ydot, void *ctx);
+  /* Limits of the inner steps of multirate schemes, after an evaluation of the fast piece; `limits`
+   * are then those of the slow piece, or of f without its fast and implicit terms.  NULL: none. */
+  int (*limits_fast)(double t, N_Vector y, sph_step_limit *limit, void *ctx);
   /* Solves an implicit stage, to its tolerance; NULL: there is no implicit part. */
   int (*solve)(sph_stage *stage, void *ctx);
   /* A bound of the largest |eigenvalue| of df/dy at (t, y) [1/s], for stabilised schemes. */

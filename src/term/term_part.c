@@ -1,0 +1,121 @@
+#include "term_part.h"
+
+#include <string.h>
+
+#include "words.h"
+
+/* May it be implicit? */
+enum { NEVER, MAY, DEFAULT }; /* DEFAULT: so it is where no part was set */
+
+static const struct {
+  const char *name;
+  unsigned bits;
+  int implicit;
+} built_in[] = {
+    {"continuity", SPH_CONTINUITY, NEVER},
+    {"pressure", SPH_PRESSURE_FORCE, NEVER},
+    {"viscosity-artificial", SPH_ARTIFICIAL, MAY},
+    {"viscosity-signal", SPH_SIGNAL, NEVER},
+    {"viscosity-laminar", SPH_MORRIS | SPH_MCG, DEFAULT},
+    {"conductivity-artificial", SPH_CONDUCTIVITY, NEVER},
+    {"conduction", SPH_CONDUCTION, DEFAULT},
+    {"xsph", SPH_XSPH, NEVER},
+    {"delta", SPH_DIFFUSION, MAY},
+    {"gravity", SPH_UNIFORM, NEVER},
+};
+enum { BUILT_IN = sizeof built_in / sizeof *built_in };
+
+static const char *const parts[] = {[SPH_TERM_EXPLICIT] = "explicit",
+                                    [SPH_TERM_IMPLICIT] = "implicit",
+                                    [SPH_TERM_FAST] = "fast",
+                                    "slow"};
+enum { PARTS = sizeof parts / sizeof *parts };
+
+/* Bits of a set's terms, the uniform force among them. */
+static unsigned bits_of(const sph_term_set *set)
+{
+  return set->bits | (set->uniform ? SPH_UNIFORM : 0);
+}
+
+static int part_number(const char *part, sph_error *error)
+{
+  sph_words words = {.wanted = part ? part : ""};
+  for (int k = 0; k < PARTS; k++) {
+    if (!strcmp(words.wanted, parts[k])) return k == PARTS - 1 ? SPH_TERM_EXPLICIT : k;
+    sph_words_add(&words, parts[k]);
+  }
+  sph_error_set(error, SPH_ERR_ARGUMENT, "part \"%.60s\"; %sknown: %s", words.wanted, words.nearest,
+                words.known);
+  return -1;
+}
+
+static int unknown(const sph_term_set *set, const char *term, sph_error *error)
+{
+  sph_words words = {.wanted = term};
+  for (int k = 0; k < BUILT_IN; k++)
+    if (bits_of(set) & built_in[k].bits) sph_words_add(&words, built_in[k].name);
+  for (int k = 0; k < set->called; k++) sph_words_add(&words, set->call[k].name);
+  return sph_error_set(error, SPH_ERR_ARGUMENT,
+                       "part of term \"%.60s\", which the simulation has not; %sit has: %s", term,
+                       words.nearest, words.known[0] ? words.known : "none yet");
+}
+
+static int not_implicit(const char *term, sph_error *error)
+{
+  sph_words words = {.wanted = term};
+  for (int k = 0; k < BUILT_IN; k++)
+    if (built_in[k].implicit != NEVER) sph_words_add(&words, built_in[k].name);
+  return sph_error_set(error, SPH_ERR_ARGUMENT, "%s%s; these can be: %s", term,
+                       *term ? " cannot be implicit" : "no term is implicit", words.known);
+}
+
+static void assign(sph_term_set *set, unsigned bits, int part)
+{
+  set->implicit &= ~bits;
+  set->fast &= ~bits;
+  if (part == SPH_TERM_IMPLICIT) set->implicit |= bits;
+  if (part == SPH_TERM_FAST) set->fast |= bits;
+}
+
+int sph_term_part_set(sph_term_set *set, const char *term, const char *part, sph_error *error)
+{
+  int number = part_number(part, error), found = 0;
+  if (!term) term = "";
+  if (number < 0) return SPH_ERR_ARGUMENT;
+  for (int k = 0; k < BUILT_IN; k++) {
+    if (strcmp(term, built_in[k].name) || !(bits_of(set) & built_in[k].bits)) continue;
+    if (number == SPH_TERM_IMPLICIT && built_in[k].implicit == NEVER)
+      return not_implicit(term, error);
+    assign(set, built_in[k].bits, number);
+    found = 1;
+  }
+  for (int k = 0; k < set->called; k++) {
+    if (strcmp(term, set->call[k].name)) continue;
+    if (number == SPH_TERM_IMPLICIT) return not_implicit(term, error);
+    set->call[k].part = number;
+    found = 1;
+  }
+  set->parted |= found;
+  return found ? SPH_OK : unknown(set, term, error);
+}
+
+int sph_term_part_default(sph_term_set *set, sph_error *error)
+{
+  for (int k = 0; !set->parted && k < BUILT_IN; k++)
+    if (built_in[k].implicit == DEFAULT)
+      assign(set, bits_of(set) & built_in[k].bits, SPH_TERM_IMPLICIT);
+  return sph_term_part_first(set, SPH_TERM_IMPLICIT) ? SPH_OK : not_implicit("", error);
+}
+
+const char *sph_term_part_first(const sph_term_set *set, int part)
+{
+  unsigned bits = bits_of(set);
+  if (part == SPH_TERM_EXPLICIT) bits &= ~(set->implicit | set->fast);
+  if (part == SPH_TERM_IMPLICIT) bits &= set->implicit;
+  if (part == SPH_TERM_FAST) bits &= set->fast;
+  for (int k = 0; k < BUILT_IN; k++)
+    if (bits & built_in[k].bits) return built_in[k].name;
+  for (int k = 0; k < set->called; k++)
+    if (set->call[k].part == part) return set->call[k].name;
+  return NULL;
+}
