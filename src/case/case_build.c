@@ -282,6 +282,7 @@ static sph_integrator_def integrator_of(const sph_case_node *map)
       .method = get_text(map, "method", NULL),
       .cfl = get_number(map, "cfl", 0),
       .tolerance = control ? get_number(map, "tolerance", 0) : -1,
+      .stage_tolerance = get_number(map, "stage_tolerance", 0),
       .dt_max = get_number(map, "dt_max", 0),
       .dt_min = get_number(map, "dt_min", 0),
       .dt_fixed = get_number(map, "dt_fixed", 0),

@@ -100,6 +100,9 @@ static void json_what(sph_text *t, const facts *f)
   real(t, "rejected", (double)s->rejected);
   real(t, "retries", (double)s->retries);
   real(t, "rhs_evaluations", (double)s->rhs_evaluations);
+  real(t, "implicit_evaluations", (double)s->implicit_evaluations);
+  real(t, "solves", (double)s->solves);
+  real(t, "solve_iterations", (double)s->solve_iterations);
   real(t, "list_builds", (double)f->stats.list_builds);
   real(t, "dt_smallest_s", s->dt_smallest);
   real(t, "dt_largest_s", s->dt_largest);
@@ -185,8 +188,11 @@ static void text_run(sph_text *t, const facts *f)
   sph_text_add(t, "%.6g s in %ld steps of %.3g to %.3g s, %s\n", sph_sim_time(f->sim), s->steps,
                s->dt_smallest, s->dt_largest, sph_sim_integrator(f->sim));
   line(t, "steps");
-  sph_text_add(t, "%ld rejected, %ld retried, %ld right-hand sides; bound by", s->rejected,
-               s->retries, s->rhs_evaluations);
+  sph_text_add(t, "%ld rejected, %ld retried, %ld right-hand sides", s->rejected, s->retries,
+               s->rhs_evaluations);
+  if (s->solves)
+    sph_text_add(t, ", %ld implicit stages (%ld iterations)", s->solves, s->solve_iterations);
+  sph_text_add(t, "; bound by");
   int listed = 0;
   for (int k = 0; k < SPH_BOUND_COUNT; k++)
     if (s->bound_by[k])
