@@ -8,6 +8,7 @@
 #include "sphode/boundary.h"
 #include "sphode/case.h"
 #include "sphode/eos.h"
+#include "sphode/event.h"
 #include "sphode/field.h"
 #include "sphode/group.h"
 #include "sphode/integrator.h"

@@ -16,7 +16,8 @@ extern "C" {
 #endif
 
 struct sph_sim;
-struct sph_balance; /* sphode/sim.h */
+struct sph_balance;      /* sphode/sim.h */
+struct sph_event_record; /* sphode/event.h */
 
 typedef struct sph_output {
   const char *name;
@@ -29,6 +30,9 @@ typedef struct sph_output {
   int (*close)(void *ctx, struct sph_sim *sim, sph_error *error);
   void *ctx;
   void (*free)(void *ctx); /* called once */
+  /* An event happened (sphode/event.h), in the state that sim shows; NULL is fine. */
+  int (*event)(void *ctx, struct sph_sim *sim, const struct sph_event_record *record,
+               sph_error *error);
 } sph_output;
 
 /* ---- snapshots -------------------------------------------------------------------------------

@@ -49,6 +49,10 @@ SPH_API void sph_sim_add_term(sph_sim *sim, sph_term term);
  * delta; where no part is set, viscosity-laminar and conduction are, with imex.  dx/dt = v belongs
  * to the part of the pressure force. */
 SPH_API void sph_sim_set_part(sph_sim *sim, const char *term, const char *part);
+/* New parameters of a built-in term that the simulation has, between steps or in the change of an
+ * event: gravity (of all that were added), harmonic, viscosity-artificial, viscosity-signal,
+ * conductivity-artificial, xsph, delta (its model stays).  The integrator starts anew. */
+SPH_API void sph_sim_change_term(sph_sim *sim, sph_term term);
 SPH_API void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def); /* copied */
 SPH_API void sph_sim_add_output(sph_sim *sim, sph_output output);
 /* Called after every accepted step; a return != 0 stops the run with SPH_ERR_STOPPED, outputs

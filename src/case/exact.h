@@ -140,9 +140,4 @@ typedef struct sph_exact_wave {
 /* Density, velocity, pressure at x [m] and t [s]. */
 sph_exact_gas sph_exact_wave_at(const sph_exact_wave *wave, double t, double x);
 
-/* --- GSL calls abort() on an error unless its process-wide handler is off: between these two, a
- * lock is held and the handler is off; the user's is put back --- */
-void sph_exact_gsl_begin(void);
-void sph_exact_gsl_end(void);
-
 #endif

@@ -11,6 +11,7 @@
 #include <stddef.h>
 
 #include "exact.h"
+#include "gsl.h"
 
 static double rate_of_rate(const sph_exact_drop *drop, const double y[3])
 {
@@ -58,7 +59,7 @@ int sph_exact_drop_at(const sph_exact_drop *drop, long n, const double *t,
   double y[3] = {drop->rate, 1, 1}, now = 0, fastest = fmax(fabs(drop->rate), drop->omega);
   sph_exact_drop parameters = *drop; /* GSL wants them writable */
   gsl_odeiv2_system system = {rhs, NULL, 3, &parameters};
-  sph_exact_gsl_begin();
+  sph_gsl_begin();
   gsl_odeiv2_driver *driver =
       gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd,
                                     fastest > 0 ? 1e-3 / fastest : 1, 1e-14, 1e-13);
@@ -71,7 +72,7 @@ int sph_exact_drop_at(const sph_exact_drop *drop, long n, const double *t,
     ellipses[k].p0 *= drop->radius * drop->radius;
   }
   if (driver) gsl_odeiv2_driver_free(driver);
-  sph_exact_gsl_end();
+  sph_gsl_end();
   if (!status) return SPH_OK;
   return sph_error_set(error, SPH_ERR_STEP, "drop: integration stopped at t = %g s: %s", now,
                        gsl_strerror(status));

@@ -14,6 +14,7 @@
 #include <stddef.h>
 
 #include "exact.h"
+#include "gsl.h"
 
 static double sound_speed(double gamma, const sph_exact_gas *k)
 {
@@ -43,7 +44,7 @@ static int star_pressure(sph_exact_riemann *r)
   double lower = 0, upper = GSL_MAX_DBL(r->left.p, r->right.p);
   while (mismatch(upper, r) < 0 && isfinite(upper)) lower = upper, upper *= 4;
   gsl_function function = {mismatch, r};
-  sph_exact_gsl_begin();
+  sph_gsl_begin();
   gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
   int status = solver ? gsl_root_fsolver_set(solver, &function, lower, upper) : GSL_ENOMEM;
   for (int k = 0; !status && k < 1000; k++) {
@@ -54,7 +55,7 @@ static int star_pressure(sph_exact_riemann *r)
   }
   if (!status) r->p = gsl_root_fsolver_root(solver);
   if (solver) gsl_root_fsolver_free(solver);
-  sph_exact_gsl_end();
+  sph_gsl_end();
   return status;
 }
 

@@ -9,6 +9,7 @@
 #include "cpu.h"
 #include "memory.h"
 #include "sim_data.h"
+#include "sim_event.h"
 #include "sim_parts.h"
 #include "sim_prepare.h"
 #include "sim_rhs.h"
@@ -152,6 +153,22 @@ void sph_sim_add_term(sph_sim *sim, sph_term term)
   if (!kept && term.free) term.free(term.ctx);
 }
 
+/* Terms that did nothing at the start have no loop. */
+void sph_sim_change_term(sph_sim *sim, sph_term term)
+{
+  if (!sph_sim_data_ok(sim)) return;
+  unsigned bits = term.name ? sph_term_set_bits(term.name) : 0;
+  int unused = sim->prepared && (sim->terms.bits & bits) && !(sim->loop_terms & bits);
+  if (sim->prepared && sim->shown != sim->y)
+    sph_sim_fail(sim, SPH_ERR_STATE, "term %s: terms change between steps",
+                 term.name ? term.name : "");
+  else if (unused)
+    sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                 "term %s: its strength was 0 at the start; right is a small one there", term.name);
+  else if (sph_term_set_change(&sim->terms, &term, &sim->error) == SPH_OK)
+    sph_sim_changed(sim);
+}
+
 void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def)
 {
   if (!sph_sim_data_ok(sim)) return;
@@ -194,6 +211,59 @@ void sph_sim_set_progress(sph_sim *sim, int (*progress)(void *ctx, sph_sim *sim)
   if (!sph_sim_data_ok(sim)) return;
   sim->progress = progress;
   sim->progress_ctx = ctx;
+}
+
+void sph_sim_add_event(sph_sim *sim, const sph_event *event)
+{
+  int kept = sph_sim_data_ok(sim);
+  if (kept && !event)
+    kept = !sph_sim_fail(sim, SPH_ERR_ARGUMENT, "sph_sim_add_event: no definition (NULL)");
+  if (kept && sim->watches == SPH_EVENTS_MAX)
+    kept = !sph_sim_fail(sim, SPH_ERR_ARGUMENT, "more than %d events", SPH_EVENTS_MAX);
+  if (kept && sph_event_take(&sim->watch[sim->watches], event, sim, &sim->error) == SPH_OK)
+    sim->watches++;
+  else if (event && event->free)
+    event->free(event->ctx);
+}
+
+int sph_sim_event_get(const sph_sim *sim, int k, sph_event_info *info)
+{
+  if (!sim || !info || k < 0 || k >= sim->watches) return 0;
+  *info = sim->watch[k].info;
+  return 1;
+}
+
+const char *sph_sim_stopped_by(const sph_sim *sim) { return sim ? sim->stopped_by : NULL; }
+
+static int check_modifier(sph_sim *sim, const sph_modifier *m)
+{
+  const char *name = m->name ? m->name : "";
+  if (!*name || strlen(name) >= SPH_NAME_MAX)
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "modifier name \"%.80s\"; right is 1 to %d letters",
+                        name, SPH_NAME_MAX - 1);
+  if (!m->modify)
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "modifier %s: no function (NULL)", name);
+  if (m->steps < 0 || (m->steps > 0) == (m->interval != 0) ||
+      !(m->interval >= 0 && m->interval < INFINITY))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "modifier %s: steps = %ld, interval = %g s; right is one of them, > 0",
+                        name, m->steps, m->interval);
+  if (sim->modifiers == SPH_MODIFIERS_MAX)
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "modifier %s: more than %d modifiers", name,
+                        SPH_MODIFIERS_MAX);
+  return SPH_OK;
+}
+
+void sph_sim_add_modifier(sph_sim *sim, sph_modifier modifier)
+{
+  if (!sph_sim_data_ok(sim) || check_modifier(sim, &modifier)) {
+    if (modifier.free) modifier.free(modifier.ctx);
+    return;
+  }
+  sph_modifying *m = &sim->modifier[sim->modifiers++];
+  *m = (sph_modifying){.modifier = modifier, .start = sim->time, .done = modifier.steps == 0};
+  snprintf(m->name, sizeof m->name, "%s", modifier.name);
+  m->modifier.name = m->name;
 }
 
 double sph_sim_time(const sph_sim *sim) { return sim ? sim->time : 0; }
@@ -244,6 +314,11 @@ void sph_sim_free(sph_sim *sim)
   for (int g = 0; g < sim->groups; g++) sph_group_data_free(sim->group[g]);
   for (int k = 0; k < sim->outlets; k++)
     if (sim->outlet[k].output.free) sim->outlet[k].output.free(sim->outlet[k].output.ctx);
+  for (int k = 0; k < sim->watches; k++)
+    if (sim->watch[k].event.free) sim->watch[k].event.free(sim->watch[k].event.ctx);
+  for (int k = 0; k < sim->modifiers; k++)
+    if (sim->modifier[k].modifier.free)
+      sim->modifier[k].modifier.free(sim->modifier[k].modifier.ctx);
   sph_term_set_free(&sim->terms);
   sph_memory_free(sim);
 }
@@ -254,8 +329,7 @@ int sph_sim_step(sph_sim *sim)
   int status = sph_sim_prepare(sim);
   if (!status) status = sph_sim_parts_fit(sim);
   if (!status)
-    status = sph_sim_run_step(sim, sim->time + 1e9 * fmin(sim->limit[SPH_BOUND_CFL], 1e9)); /* no
-                                                                                     stop */
+    status = sph_sim_run_step(sim, sim->time + 1e9 * fmin(sim->limit[SPH_BOUND_CFL], 1e9), 0);
   if (sim) sim->seconds += sph_clock() - begin;
   return status;
 }

@@ -4,6 +4,7 @@
 #include "group_data.h"
 #include "integrator.h"
 #include "nvector.h"
+#include "sphode/event.h"
 #include "sphode/kernel.h"
 #include "sphode/neighbors.h"
 #include "sphode/pair_loop.h"
@@ -52,8 +53,33 @@ typedef struct sph_outlet {
   sph_output output;
   long frames;  /* due so far: the next one is due at start + frames * interval */
   double start; /* when it was opened [s] */
+  double last;  /* time of its last frame [s]; NaN: none */
   int open;
 } sph_outlet;
+
+/* An event at work. */
+typedef struct sph_watch {
+  sph_event event; /* name and group are those here */
+  char name[SPH_NAME_MAX], group[SPH_NAME_MAX];
+  int type;            /* of the table in event.c; -1: own */
+  int direction;       /* 1: rising, -1: falling, 0: both */
+  int known;           /* `side` is that of the state so far */
+  int side;            /* of zero, where it was looked at last: 1, -1; 0: on it, or undefined */
+  int piece;           /* of the last step: the next to look at, of samples + 1 */
+  double root;         /* its next moment in that step [s]; INFINITY: none so far */
+  int behind;          /* its side behind that */
+  int happened;        /* at the moment that is handled */
+  int over;            /* it comes once, and did */
+  sph_event_info info; /* what is told of it */
+} sph_watch;
+
+/* A modifier at work. */
+typedef struct sph_modifying {
+  sph_modifier modifier;
+  char name[SPH_NAME_MAX];
+  double start; /* intervals count from here [s] */
+  double done;  /* steps since it ran; or intervals so far */
+} sph_modifying;
 
 struct sph_sim {
   sph_error error;
@@ -68,10 +94,12 @@ struct sph_sim {
   double volume, wall_volume; /* of a particle: dx^dim, unless calibrated [m^dim] */
 
   /* Attached. */
-  int groups, outlets, has_integrator;
+  int groups, outlets, watches, modifiers, has_integrator;
   sph_group *group[SPH_SETS_MAX];
   sph_term_set terms;
   sph_outlet outlet[SPH_OUTPUTS_MAX];
+  sph_watch watch[SPH_EVENTS_MAX];
+  sph_modifying modifier[SPH_MODIFIERS_MAX];
   sph_integrator_def integrator_def;
   char method[SPH_METHOD_MAX];
   sph_scheme scheme; /* the user's own, copied; its name is method */
@@ -84,6 +112,7 @@ struct sph_sim {
   sph_layout layout;
   N_Vector y, ydot, frame; /* state; rates of sph_sim_evaluate; state between steps, for outputs */
   N_Vector shown;          /* y or frame */
+  N_Vector slope[2];       /* rates for events of type steady, and work; NULL without */
   sph_integrator *integrator;
   sph_neighbors *neighbors;
   sph_sorted sorted[SPH_SETS_MAX];
@@ -97,11 +126,13 @@ struct sph_sim {
   double step_scale_v;                    /* V of the error weights [m/s] */
 
   /* Moving. */
-  double time;  /* of the state shown */
-  double start; /* of the run: frames count from here */
-  int listed;   /* neighbour lists exist */
-  int fresh;    /* ... and have not been counted yet */
-  int derived;  /* pressure etc. are those of the state shown */
+  double time;            /* of the state shown */
+  double looked;          /* for events, up to here [s] */
+  const char *stopped_by; /* the event that ended the last run or step; NULL: none */
+  double start;           /* of the run: frames count from here */
+  int listed;             /* neighbour lists exist */
+  int fresh;              /* ... and have not been counted yet */
+  int derived;            /* pressure etc. are those of the state shown */
   double
       limit[SPH_BOUND_COUNT]; /* step limits of the last evaluation, but not by fast terms, [s] */
   double limit_fast[SPH_BOUND_COUNT]; /* ... of the fast part */

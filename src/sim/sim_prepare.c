@@ -355,6 +355,8 @@ void sph_sim_prepare_undo(sph_sim *sim)
   if (sim->y) N_VDestroy(sim->y);
   if (sim->ydot) N_VDestroy(sim->ydot);
   if (sim->frame) N_VDestroy(sim->frame);
+  for (int k = 0; k < 2; k++)
+    if (sim->slope[k]) N_VDestroy(sim->slope[k]);
   sph_sundials_context_free(sim->context);
   sph_memory_free(sim->layout.segment);
   sph_neighbors_free(sim->neighbors);

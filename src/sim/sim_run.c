@@ -1,21 +1,28 @@
-/* The run: steps, and frames at their exact times by dense output, so that no frame shortens a
- * step. */
+/* The run: steps, and what belongs to moments in them: frames and events at their exact times by
+ * dense output, so that none of them shortens a step. */
+#include "sim_run.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "clock.h"
+#include "sim_event.h"
 #include "sim_parts.h"
 #include "sim_prepare.h"
 #include "sim_rhs.h"
-#include "sim_run.h"
 
-static void show(sph_sim *sim, double t, N_Vector state)
+int sph_sim_run_show(sph_sim *sim, double t)
 {
-  sim->shown = state;
+  int now = t == sph_integrator_time(sim->integrator), status = SPH_OK;
+  if (!now) status = sph_integrator_interpolate(sim->integrator, t, sim->frame);
+  sim->shown = now ? sim->y : sim->frame;
   sim->time = t;
   sim->derived = 0;
+  return status;
 }
+
+static void show_end(sph_sim *sim) { sph_sim_run_show(sim, sph_integrator_time(sim->integrator)); }
 
 int sph_sim_run_derived(sph_sim *sim)
 {
@@ -25,6 +32,8 @@ int sph_sim_run_derived(sph_sim *sim)
   sim->derived = !status;
   return status;
 }
+
+/* ---- frames ---- */
 
 static const double MOST_FRAMES = 1e6; /* in one step */
 
@@ -43,37 +52,55 @@ static void skip_past(const sph_sim *sim, sph_outlet *outlet)
   outlet->frames = (long)fmin(1e15, floor((sim->time - outlet->start) / interval) + 1);
 }
 
+/* A frame of the state shown, unless it has one of this moment. */
 static int frame(sph_sim *sim, sph_outlet *outlet)
 {
+  if (outlet->last == sim->time) return SPH_OK;
   int status = sph_sim_run_derived(sim);
   if (!status) status = outlet->output.frame(outlet->output.ctx, sim, &sim->error);
-  outlet->frames++;
+  outlet->last = sim->time;
   return status;
 }
 
-/* All frames due in (previous, time] of the last step. */
-static int frames(sph_sim *sim)
+int sph_sim_run_frame_all(sph_sim *sim)
 {
-  double now = sph_integrator_time(sim->integrator);
+  int status = SPH_OK;
+  for (int k = 0; !status && k < sim->outlets; k++)
+    if (sim->outlet[k].open) status = frame(sim, &sim->outlet[k]);
+  return status;
+}
+
+static int check_interval(sph_sim *sim, const sph_output *output)
+{
+  double step = sph_integrator_time(sim->integrator) - sph_integrator_previous(sim->integrator);
+  if (!(output->interval > 0) || step <= MOST_FRAMES * output->interval) return SPH_OK;
+  return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "output %s: an interval of %g s in steps of %g s",
+                      output->name ? output->name : "", output->interval, step);
+}
+
+/* All frames due in the last step up to t. */
+static int frames(sph_sim *sim, double t)
+{
   int status = SPH_OK;
   for (int k = 0; !status && k < sim->outlets; k++) {
     sph_outlet *outlet = &sim->outlet[k];
-    double last = sph_integrator_previous(sim->integrator);
-    if (now - last > MOST_FRAMES * outlet->output.interval && outlet->output.interval > 0)
-      return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "output %s: an interval of %g s in steps of %g s",
-                          outlet->output.name ? outlet->output.name : "", outlet->output.interval,
-                          now - last);
+    status = check_interval(sim, &outlet->output);
     double slack = 1e-9 * outlet->output.interval; /* a frame at the end is not lost to rounding */
-    for (double t = due(outlet); !status && isfinite(t) && t <= now + slack; t = due(outlet)) {
-      if (t < now) {
-        status = sph_integrator_interpolate(sim->integrator, t, sim->frame);
-        show(sim, t, sim->frame);
-      }
+    for (; !status && isfinite(due(outlet)) && due(outlet) <= t + slack; outlet->frames++) {
+      status = sph_sim_run_show(sim, fmin(due(outlet), t));
       if (!status) status = frame(sim, outlet);
-      show(sim, now, sim->y);
     }
-    if (!status && outlet->output.interval == 0) status = frame(sim, outlet);
   }
+  show_end(sim);
+  return status;
+}
+
+/* Interval 0: a frame at the end of each step. */
+static int frames_of_steps(sph_sim *sim)
+{
+  int status = SPH_OK;
+  for (int k = 0; !status && k < sim->outlets; k++)
+    if (sim->outlet[k].output.interval == 0) status = frame(sim, &sim->outlet[k]);
   return status;
 }
 
@@ -87,7 +114,8 @@ static int open_outputs(sph_sim *sim)
       continue;
     }
     outlet->start = sim->time;
-    outlet->frames = 0;
+    outlet->frames = 1;
+    outlet->last = NAN;
     if (outlet->output.open) status = outlet->output.open(outlet->output.ctx, sim, &sim->error);
     outlet->open = !status;
     if (!status) status = frame(sim, outlet);
@@ -105,16 +133,48 @@ void sph_sim_run_close(sph_sim *sim)
   }
 }
 
-int sph_sim_run_step(sph_sim *sim, double t_stop)
+/* ---- steps ---- */
+
+static int step(sph_sim *sim, double t_stop)
 {
   sim->retry[0] = 0;
+  double from = sph_integrator_time(sim->integrator);
   int status = sph_integrator_step(sim->integrator, t_stop);
-  show(sim, sph_integrator_time(sim->integrator), sim->y);
+  show_end(sim);
+  sph_sim_event_stepped(sim, from);
   if (status && sim->retry[0]) { /* why the evaluations asked for smaller steps */
     size_t used = strlen(sim->error.text);
     snprintf(sim->error.text + used, sizeof sim->error.text - used, "; the last reason: %s",
              sim->retry);
   }
+  return status;
+}
+
+/* Events and frames of the last step in the order of time, up to its end, or to the event that
+ * cuts it short. */
+static int look_back(sph_sim *sim, int framed, int *cut)
+{
+  double end = sph_integrator_time(sim->integrator), t = -INFINITY;
+  int status = SPH_OK;
+  while (!status && !*cut && t <= end) {
+    status = sph_sim_event_next(sim, &t);
+    if (!status && framed) status = frames(sim, fmin(t, end));
+    if (!status && t <= end) status = sph_sim_event_happen(sim, t, cut);
+  }
+  if (!status && *cut) return sph_sim_event_cut(sim, t);
+  show_end(sim);
+  return status;
+}
+
+int sph_sim_run_step(sph_sim *sim, double t_stop, int framed)
+{
+  int cut = 0, status = sph_sim_event_start(sim);
+  sim->stopped_by = NULL;
+  if (!status) status = step(sim, t_stop);
+  if (!status) status = look_back(sim, framed, &cut);
+  if (!status && framed) status = frames_of_steps(sim);
+  if (!status && cut) status = sph_sim_event_act(sim);
+  if (!status && !sim->stopped_by) status = sph_sim_modifier_run(sim);
   return status;
 }
 
@@ -127,10 +187,10 @@ static int run(sph_sim *sim, double t_end)
     return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                         "t_end = %g s; right is finite and >= %g s, the present time", t_end,
                         sim->time);
+  sim->stopped_by = NULL;
   status = open_outputs(sim);
-  while (!status && sim->time < t_end) {
-    status = sph_sim_run_step(sim, t_end);
-    if (!status) status = frames(sim);
+  while (!status && sim->time < t_end && !sim->stopped_by) {
+    status = sph_sim_run_step(sim, t_end, 1);
     if (!status && sim->progress && sim->progress(sim->progress_ctx, sim))
       status = sph_sim_fail(sim, SPH_ERR_STOPPED, "stopped on request at t = %g s", sim->time);
   }

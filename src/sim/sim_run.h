@@ -5,8 +5,13 @@
 
 /* Makes pressure, sound speed and walls those of the state shown, if they are not. */
 int sph_sim_run_derived(sph_sim *sim);
-/* One accepted step, not past t_stop, of a prepared simulation. */
-int sph_sim_run_step(sph_sim *sim, double t_stop);
+/* Shows the state at t: the present one, or one inside the last step. */
+int sph_sim_run_show(sph_sim *sim, double t);
+/* A frame of the state shown in every open output, unless it has one of that moment. */
+int sph_sim_run_frame_all(sph_sim *sim);
+/* One accepted step, not past t_stop, of a prepared simulation, its events, modifiers and, if
+ * framed, its frames. */
+int sph_sim_run_step(sph_sim *sim, double t_stop, int framed);
 /* Closes all outputs: after a failure, or when the simulation ends. */
 void sph_sim_run_close(sph_sim *sim);
 

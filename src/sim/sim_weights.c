@@ -72,6 +72,23 @@ void sph_sim_weights_scales(sph_sim *sim, int g, const sph_view *view)
   for (int q = 0; q < group->scalars; q++) scale[SPH_SCALAR + q] = sim->terms.scalar[q].scale;
 }
 
+double sph_sim_weights_rate(const sph_sim *sim, N_Vector rates)
+{
+  const double *rate = sph_nvector_data(rates);
+  double sum = 0, entries = 0;
+  for (int g = 0; g < sim->groups; g++)
+    for (int field = SPH_POSITION + 1; field < SPH_FIELDS; field++)
+      for (int c = 0; c < 3; c++) {
+        long offset = sim->group[g]->offset[field][c], n = offset >= 0 ? sim->group[g]->n : 0;
+        entries += (double)n;
+        for (long i = 0; i < n; i++) {
+          double q = rate[offset + i] / sim->scale[g][field];
+          sum += q * q;
+        }
+      }
+  return sqrt(sum / entries);
+}
+
 int sph_sim_weights(N_Vector y, N_Vector weight, void *ctx)
 {
   const sph_sim *sim = ctx;

@@ -6,5 +6,7 @@
 
 /* Sets the scales of group g from its state at the start (p, c known). */
 void sph_sim_weights_scales(sph_sim *sim, int g, const sph_view *view);
+/* The rms of rates (a vector like y) of all fields but the position, over their scales [1/s]. */
+double sph_sim_weights_rate(const sph_sim *sim, N_Vector rates);
 
 #endif

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "memory.h"
+
 static int not_below_zero(const char *term, const char *name, double value, sph_error *error)
 {
   if (isfinite(value) && value >= 0) return SPH_OK;
@@ -280,6 +282,78 @@ int sph_term_set_add(sph_term_set *set, const sph_term *term, sph_error *error)
   int called = set->called, status = add(set, term, error);
   int kept = set->called > called || (!status && term->phi); /* phi reads ctx in every evaluation */
   if (!kept && term->free) term->free(term->ctx);
+  return status;
+}
+
+/* Terms whose parameters may change while a simulation runs. */
+static const struct {
+  const char *name;
+  unsigned bits;
+} changeable[] = {
+    {"viscosity-artificial", SPH_ARTIFICIAL},
+    {"viscosity-signal", SPH_SIGNAL},
+    {"conductivity-artificial", SPH_CONDUCTIVITY},
+    {"xsph", SPH_XSPH},
+    {"delta", SPH_DIFFUSION},
+};
+
+unsigned sph_term_set_bits(const char *name)
+{
+  for (size_t k = 0; k < sizeof changeable / sizeof *changeable; k++)
+    if (!strcmp(name, changeable[k].name)) return changeable[k].bits;
+  return 0;
+}
+
+static int change_harmonic(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  int status = is_finite(term, "omega", term->omega, error), found = 0;
+  for (int k = 0; !status && k < set->called; k++)
+    if (set->call[k].term.body == term->body) {
+      set->call[k].term.omega = term->omega;
+      found = 1;
+    }
+  if (status || found) return status;
+  return sph_error_set(error, SPH_ERR_ARGUMENT, "term harmonic: the simulation has none");
+}
+
+/* As if it were added anew. */
+static int change_pair(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  unsigned bits = sph_term_set_bits(term->name), was = set->bits;
+  if (!(was & bits))
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: the simulation has none", term->name);
+  set->bits &= ~bits;
+  int status = add(set, term, error);
+  if (!status && set->bits != was)
+    status =
+        sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: form \"%s\" is another one than before",
+                      term->name, term->form);
+  return status;
+}
+
+int sph_term_set_change(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  const char *name = term->name ? term->name : "";
+  int own = term->pair || (term->body && strcmp(name, "harmonic") != 0);
+  sph_term_set *kept = SPH_NEW(sph_term_set, 1, "terms", error);
+  if (!kept) return SPH_ERR_MEMORY;
+  *kept = *set;
+  int status = SPH_OK;
+  if (!own && !strcmp(name, "harmonic")) {
+    status = change_harmonic(set, term, error);
+  } else if (!own && !strcmp(name, "gravity")) {
+    for (int d = 0; d < 3; d++) set->g[d] = 0;
+    status = add_gravity(set, term, error);
+  } else if (!own && sph_term_set_bits(name)) {
+    status = change_pair(set, term, error);
+  } else {
+    status = sph_error_set(error, SPH_ERR_ARGUMENT,
+                           "term \"%.60s\" cannot change; gravity, harmonic, viscosity-artificial, "
+                           "viscosity-signal, conductivity-artificial, xsph, delta can",
+                           name);
+  }
+  if (status) *set = *kept;
+  sph_memory_free(kept);
   return status;
 }
 

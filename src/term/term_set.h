@@ -47,6 +47,11 @@ typedef struct sph_term_set {
 
 /* Checks a term and takes it in (its ctx too: on failure it is let go of). */
 int sph_term_set_add(sph_term_set *set, const sph_term *term, sph_error *error);
+/* New parameters of a built-in term that is there (gravity: of all of them); its form stays.  On
+ * failure nothing changes. */
+int sph_term_set_change(sph_term_set *set, const sph_term *term, sph_error *error);
+/* The bits of the built-in pair terms of that name; 0: none. */
+unsigned sph_term_set_bits(const char *name);
 /* Do the terms fit together? */
 int sph_term_set_check(const sph_term_set *set, sph_error *error);
 void sph_term_set_free(sph_term_set *set);

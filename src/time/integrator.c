@@ -303,6 +303,30 @@ int sph_integrator_interpolate(sph_integrator *it, double t, N_Vector at)
   return status ? sph_integrator_fail(it, status, "no dense output") : SPH_OK;
 }
 
+int sph_integrator_stepped(const sph_integrator *it) { return it->stepped; }
+
+/* Dense output is cubic at most: the slope of the cubic through its values at s = 0, 1/3, 2/3, 1 of
+ * the step. */
+int sph_integrator_rate(sph_integrator *it, double t, N_Vector rate, N_Vector work)
+{
+  double h = it->time - it->previous, s = (t - it->previous) / h;
+  int status = SPH_OK;
+  N_VConst(0, rate);
+  for (int k = 0; !status && k < 4; k++) {
+    double slope = 0; /* of Lagrange's polynomial: 1 at k/3, 0 at the others */
+    for (int m = 0; m < 4; m++) {
+      double part = m == k ? 0 : 3.0 / (k - m);
+      for (int n = 0; n < 4; n++)
+        if (n != k && n != m) part *= (3 * s - n) / (k - n);
+      slope += part;
+    }
+    double node = k == 3 ? it->time : it->previous + k * h / 3;
+    status = sph_integrator_interpolate(it, node, work);
+    if (!status) N_VLinearSum(1, rate, slope / h, work, rate);
+  }
+  return status;
+}
+
 int sph_integrator_reset(sph_integrator *it, double t)
 {
   if (!isfinite(t))

@@ -26,6 +26,10 @@ double sph_integrator_time(const sph_integrator *integrator);
 double sph_integrator_previous(const sph_integrator *integrator);
 /* Dense output inside the last step: cubic Hermite or ARKODE's. */
 int sph_integrator_interpolate(sph_integrator *integrator, double t, N_Vector at);
+/* Is there a last step?  Not at the start or after a reset. */
+int sph_integrator_stepped(const sph_integrator *integrator);
+/* The slope of the dense output at t in the last step; work: overwritten. */
+int sph_integrator_rate(sph_integrator *integrator, double t, N_Vector rate, N_Vector work);
 /* y (or the right-hand side) changed under the integrator. */
 int sph_integrator_reset(sph_integrator *integrator, double t);
 const sph_step_stats *sph_integrator_stats(const sph_integrator *integrator);

@@ -12,14 +12,14 @@
 #include "memory.h"
 #include "sphode/kernel.h"
 
-static const double wet = 0.15; /* smallest sum V W of a wet point */
+const double sph_monitor_wet = 0.15;
 enum { FRONT_NEIGHBORS = 3, SAMPLES_MAX = 32, NAME_MAX = 63 };
 
 typedef struct points {
   int dim;
   long n;
   double *x[3]; /* [n] [m]; 0 for d >= dim */
-  double *p;    /* [n] [Pa] */
+  double *p;    /* [n] [Pa]; 0 where the pressure is not asked for */
   double *v;    /* [n] volumes */
   void *memory;
 } points;
@@ -42,7 +42,7 @@ static int take_points(points *all, long capacity, int dim, sph_error *error)
 }
 
 /* Copies the particles of the chosen groups that lie in [lo, hi]. */
-static int gather(const sph_monitor *monitor, const sph_sim *sim, const double lo[3],
+static int gather(const sph_monitor *monitor, const sph_sim *sim, int pressure, const double lo[3],
                   const double hi[3], points *all, sph_error *error)
 {
   const sph_group *group;
@@ -52,7 +52,7 @@ static int gather(const sph_monitor *monitor, const sph_sim *sim, const double l
   if (take_points(all, capacity, sph_sim_dim(sim), error) != SPH_OK) return SPH_ERR_MEMORY;
   for (int k = 0; (group = sph_sim_group_get(sim, k)); k++) {
     if (!chosen(monitor, group)) continue;
-    const double *x[3] = {NULL}, *p = sph_group_read(group, "pressure", 0);
+    const double *x[3] = {NULL}, *p = pressure ? sph_group_read(group, "pressure", 0) : NULL;
     const double *m = sph_group_read(group, "mass", 0), *rho = sph_group_read(group, "density", 0);
     for (int d = 0; d < all->dim; d++) x[d] = sph_group_read(group, "position", d);
     for (long i = 0; i < sph_group_count(group); i++) {
@@ -131,7 +131,7 @@ static int value_front(const sph_monitor *monitor, const sph_sim *sim, double *v
   int axis = strcmp(monitor->type, "height") ? monitor->axis : sph_sim_dim(sim) - 1;
   points all = {0};
   int *order = NULL;
-  int status = gather(monitor, sim, lo, hi, &all, error);
+  int status = gather(monitor, sim, 0, lo, hi, &all, error);
   if (status == SPH_OK) {
     order = SPH_NEW(int, all.n, "a monitor", error);
     status = order ? SPH_OK : SPH_ERR_MEMORY;
@@ -142,10 +142,12 @@ static int value_front(const sph_monitor *monitor, const sph_sim *sim, double *v
   return status;
 }
 
-static double pressure_at(const points *near_by, const double x[3], const sph_kernel *kernel,
-                          double h)
+/* sum V W at x, and sum V p W. */
+static double cover(const points *near_by, const double x[3], const sph_kernel *kernel, double h,
+                    double *pressure)
 {
-  double sum = 0, weight = 0;
+  double weight = 0;
+  *pressure = 0;
   for (long j = 0; j < near_by->n; j++) {
     double r2 = 0;
     for (int d = 0; d < near_by->dim; d++) {
@@ -154,9 +156,16 @@ static double pressure_at(const points *near_by, const double x[3], const sph_ke
     }
     double w = near_by->v[j] * sph_kernel_w(kernel, near_by->dim, sqrt(r2), h);
     weight += w;
-    sum += w * near_by->p[j];
+    *pressure += w * near_by->p[j];
   }
-  return weight >= wet ? sum / weight : 0;
+  return weight;
+}
+
+static double pressure_at(const points *near_by, const double x[3], const sph_kernel *kernel,
+                          double h)
+{
+  double sum, weight = cover(near_by, x, kernel, h, &sum);
+  return weight >= sph_monitor_wet ? sum / weight : 0;
 }
 
 /* The mean over the samples x + e s/m, s = -m .. m, inside the ellipsoid with half lengths e. */
@@ -184,22 +193,41 @@ static double pressure_mean(const sph_monitor *monitor, const points *near_by,
   return sum / samples;
 }
 
-static int value_pressure(const sph_monitor *monitor, const sph_sim *sim, double *value,
-                          sph_error *error)
+/* The particles that the monitor's ellipsoid can feel. */
+static int gather_near(const sph_monitor *monitor, const sph_sim *sim, int pressure,
+                       const sph_kernel *kernel, points *near_by, sph_error *error)
 {
-  const sph_kernel *kernel = sph_kernel_find(sph_sim_kernel(sim));
-  double lo[3], hi[3], h = sph_sim_h(sim);
-  points near_by = {0};
+  double lo[3], hi[3];
   if (!kernel)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "monitor %s: kernel \"%s\" is not known",
                          monitor->name, sph_sim_kernel(sim));
   for (int d = 0; d < 3; d++) {
-    double reach = monitor->extent[d] + sph_kernel_support(kernel) * h;
+    double reach = monitor->extent[d] + sph_kernel_support(kernel) * sph_sim_h(sim);
     lo[d] = monitor->x[d] - reach;
     hi[d] = monitor->x[d] + reach;
   }
-  int status = gather(monitor, sim, lo, hi, &near_by, error);
-  if (status == SPH_OK) *value = pressure_mean(monitor, &near_by, kernel, h, sph_sim_dx(sim));
+  return gather(monitor, sim, pressure, lo, hi, near_by, error);
+}
+
+int sph_monitor_cover(const sph_monitor *monitor, const sph_sim *sim, double *sum, sph_error *error)
+{
+  const sph_kernel *kernel = sph_kernel_find(sph_sim_kernel(sim));
+  points near_by = {0};
+  double nothing;
+  int status = gather_near(monitor, sim, 0, kernel, &near_by, error);
+  if (status == SPH_OK) *sum = cover(&near_by, monitor->x, kernel, sph_sim_h(sim), &nothing);
+  sph_memory_free(near_by.memory);
+  return status;
+}
+
+static int value_pressure(const sph_monitor *monitor, const sph_sim *sim, double *value,
+                          sph_error *error)
+{
+  const sph_kernel *kernel = sph_kernel_find(sph_sim_kernel(sim));
+  points near_by = {0};
+  int status = gather_near(monitor, sim, 1, kernel, &near_by, error);
+  if (status == SPH_OK)
+    *value = pressure_mean(monitor, &near_by, kernel, sph_sim_h(sim), sph_sim_dx(sim));
   sph_memory_free(near_by.memory);
   return status;
 }
@@ -256,13 +284,13 @@ const char *sph_monitor_unit(const char *type)
   return k < 0 ? NULL : types[k].unit;
 }
 
-static int check_name(const char *name, sph_error *error)
+int sph_monitor_check_name(const char *what, const char *name, sph_error *error)
 {
   static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-";
   size_t length = name ? strlen(name) : 0;
   if (length > 0 && length <= NAME_MAX && name[strspn(name, allowed)] == '\0') return SPH_OK;
   return sph_error_set(error, SPH_ERR_ARGUMENT,
-                       "monitor name \"%.80s\": 1 to %d letters, digits, _ . - are right",
+                       "%s name \"%.80s\": 1 to %d letters, digits, _ . - are right", what,
                        name ? name : "", NAME_MAX);
 }
 
@@ -284,7 +312,7 @@ int sph_monitor_check(const sph_monitor *monitor, const sph_sim *sim, sph_error 
   if (!monitor || !sim)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "a monitor: no %s (NULL)",
                          monitor ? "simulation" : "monitor");
-  int status = check_name(monitor->name, error);
+  int status = sph_monitor_check_name("monitor", monitor->name, error);
   if (status != SPH_OK) return status;
   if (find(monitor->type) < 0)
     return sph_error_set(error, SPH_ERR_ARGUMENT,
