@@ -1,5 +1,6 @@
 /* Butcher tables of the Runge-Kutta integrators: all order conditions of the method and of its
- * embedding, one for each rooted tree (Butcher 1963; Hairer, Norsett & Wanner 1993, section II.2);
+ * embedding, one for each rooted tree (Butcher 1963; Hairer, Norsett & Wanner 1993, section II.2),
+ * for pairs of tables one for each way to give its edges to them (Araujo, Murua & Sanz-Serna 1997);
  * those of Ranocha et al. (2022) against the b and c printed there. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,25 +21,25 @@ typedef struct tree {
 } tree;
 
 typedef struct forest {
-  ARKodeButcherTable table;
+  ARKodeButcherTable table[2]; /* NULL: not a pair */
   tree tree[TREES];
   int trees;
 } forest;
 
 /* t with one more branch: Phi_i *= sum_j a_ij Phi_j(branch). */
-static tree grow(const forest *f, tree t, const tree *branch)
+static tree grow(ARKodeButcherTable table, tree t, const tree *branch)
 {
-  for (int i = 0; i < f->table->stages; i++) {
+  for (int i = 0; i < table->stages; i++) {
     double sum = 0;
-    for (int j = 0; j < f->table->stages; j++) sum += f->table->A[i][j] * branch->weight[j];
+    for (int j = 0; j < table->stages; j++) sum += table->A[i][j] * branch->weight[j];
     t.weight[i] *= sum;
   }
   t.density *= branch->density;
   return t;
 }
 
-/* All trees whose branches are those of t and more of the trees up to number `last`, with `left`
- * vertices in all. */
+/* All trees whose branches are those of t and more of the trees up to number last/tables, by the
+ * edge to one of the tables, with `left` vertices in all. */
 static void branch(forest *f, tree t, int last, int left)
 {
   if (left == 0) {
@@ -47,22 +48,27 @@ static void branch(forest *f, tree t, int last, int left)
     f->tree[f->trees++] = t;
     return;
   }
-  for (int k = last; k >= 0; k--)
-    if (f->tree[k].order <= left) branch(f, grow(f, t, &f->tree[k]), k, left - f->tree[k].order);
+  for (int k = last, tables = 1 + !!f->table[1]; k >= 0; k--) {
+    const tree *next = &f->tree[k / tables];
+    if (next->order <= left) branch(f, grow(f->table[k % tables], t, next), k, left - next->order);
+  }
 }
 
-static void plant(forest *f, ARKodeButcherTable table, int order)
+/* table2: NULL or the other one of a pair. */
+static void plant(forest *f, ARKodeButcherTable table, ARKodeButcherTable table2, int order)
 {
-  static const int count[MOST] = {0, 1, 1, 2, 4, 9, 20, 48, 115, 286};
-  f->table = table;
+  static const int count[2][MOST] = {{0, 1, 1, 2, 4, 9, 20, 48, 115, 286},
+                                     {0, 1, 2, 7, 26, 107, 458}};
+  f->table[0] = table;
+  f->table[1] = table2;
   f->trees = 0;
   assert_in_range(table->stages, 1, STAGES);
   for (int n = 1; n <= order; n++) {
     tree t = {.order = n, .density = 1};
     for (int i = 0; i < table->stages; i++) t.weight[i] = 1;
     int before = f->trees;
-    branch(f, t, before - 1, n - 1);
-    assert_int_equal(f->trees - before, count[n]);
+    branch(f, t, table2 ? 2 * before - 1 : before - 1, n - 1);
+    assert_int_equal(f->trees - before, count[table2 != NULL][n]);
   }
 }
 
@@ -74,7 +80,7 @@ static double defect(const forest *f, const double *b, int from, int to)
     const tree *t = &f->tree[k];
     double sum = -1 / t->density;
     if (t->order < from || t->order > to) continue;
-    for (int i = 0; i < f->table->stages; i++) sum += b[i] * t->weight[i];
+    for (int i = 0; i < f->table[0]->stages; i++) sum += b[i] * t->weight[i];
     most = fmax(most, fabs(sum));
   }
   return most;
@@ -104,7 +110,7 @@ static void order_conditions_hold(void **state)
     /* ARKODE's are as exact as printed: one of Verner's to eleven digits */
     double near = sph_integrator_table_control(k) ? 1e-14 : 1e-10;
     int q = t->q < 9 ? t->q : 8;
-    plant(&f, t, q + 1);
+    plant(&f, t, NULL, q + 1);
     double off = defect(&f, t->b, 1, q), next = defect(&f, t->b, q + 1, q + 1);
     if (!(off < near)) fail_msg("%s: order %d off by %.1e", name, t->q, off);
     if (t->q < 9 && !(next > 1e-8)) fail_msg("%s: also of order %d", name, t->q + 1);
@@ -118,6 +124,38 @@ static void order_conditions_hold(void **state)
     seen++;
   }
   assert_true(seen >= 19);
+}
+
+/* Both tables have the same nodes and weights; the implicit one solves all stages but the first with
+ * one gamma, and ends with its weights, so that it is L-stable. */
+static void order_conditions_of_pairs_hold(void **state)
+{
+  static forest f;
+  ARKodeButcherTable t[2];
+  const char *name;
+  int seen = 0;
+  (void)state;
+  for (int k = 0; (name = sph_integrator_table_name(k)); k++) {
+    if (!sph_integrator_table_pair(k, t)) continue;
+    int q = t[0]->q, p = t[0]->p, last = t[0]->stages - 1;
+    plant(&f, t[0], t[1], q + 1);
+    double off = defect(&f, t[0]->b, 1, q), off_embedded = defect(&f, t[0]->d, 1, p);
+    if (!(off < 1e-10 && off_embedded < 1e-10))
+      fail_msg("%s: order %d off by %.1e, %d by %.1e", name, q, off, p, off_embedded);
+    assert_true(defect(&f, t[0]->b, q + 1, q + 1) > 1e-6);
+    assert_true(defect(&f, t[0]->d, p + 1, p + 1) > 1e-6);
+    check_rows(name, t[0], 1e-10);
+    for (int i = 0; i <= last; i++) {
+      double sum = -t[1]->c[i];
+      for (int j = 0; j <= last; j++) sum += t[1]->A[i][j];
+      assert_true(fabs(sum) < 1e-10 && fabs(t[0]->c[i] - t[1]->c[i]) < 1e-14);
+      assert_true(t[0]->b[i] == t[1]->b[i] && t[0]->d[i] == t[1]->d[i]);
+      assert_true(t[1]->A[i][i] == (i ? t[1]->A[1][1] : 0) && t[1]->A[last][i] == t[1]->b[i]);
+    }
+    for (int i = 0; i < 2; i++) ARKodeButcherTable_Free(t[i]);
+    seen++;
+  }
+  assert_true(seen >= 5);
 }
 
 /* As printed, to 16 digits. */
@@ -177,6 +215,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(order_conditions_hold),
+      cmocka_unit_test(order_conditions_of_pairs_hold),
       cmocka_unit_test(low_storage_pairs_are_as_printed),
   };
   return cmocka_run_group_tests_name("butcher tables", tests, NULL, NULL);
