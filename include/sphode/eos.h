@@ -32,6 +32,10 @@ struct sph_eos {
   /* rho [kg/m^3] at pressure p [Pa] for internal energy u [J/kg] (not read unless thermal); NaN or
    * not > 0: there is none. */
   double (*density)(const sph_eos *eos, double p, double u);
+  /* Derivatives of p and c with respect to rho and u, [n] each; NULL: by differences, which are
+   * right to about 1e-11 where p and c are smooth. */
+  void (*slopes)(const sph_eos *eos, long n, const double *rho, const double *u, double *p_rho,
+                 double *p_u, double *c_rho, double *c_u);
   /* Elastic energy [J/kg], zero at rho0 (polytropic: at zero density); NULL for a thermal one. */
   double (*elastic_energy)(const sph_eos *eos, double rho);
   /* u [J/kg] at density rho [kg/m^3] and pressure p [Pa], for thermal ones; NULL: found from
@@ -93,6 +97,11 @@ SPH_API void sph_eos_energy(const sph_eos *eos, long n, const double *rho, const
  * differences of p(rho, u(rho, T)) over T (1 +- 2^-17), to about 1e-10 of p. */
 SPH_API void sph_eos_thermal_pressure(const sph_eos *eos, long n, const double *rho,
                                       const double *T, double *pT);
+
+/* dp/drho [m^2/s^2], dp/du [kg/m^3], dc/drho, dc/du of rho[n], u[n] (not read unless thermal): for
+ * Jacobians. */
+SPH_API void sph_eos_slopes(const sph_eos *eos, long n, const double *rho, const double *u,
+                            double *p_rho, double *p_u, double *c_rho, double *c_u);
 
 /* Names of the built-in ones, NULL at the end of the list: for (k = 0; (name = sph_eos_name(k));
  * k++). */

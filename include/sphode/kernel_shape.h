@@ -180,7 +180,7 @@ BODY vec kernel_exp(vec q)
 BODY vec kernel_gaussian_w(int dim, vec q)
 {
   (void)dim;
-  return v_and((vec_mask)(q < 3), kernel_exp(v_min(q, v_set(3))));
+  return v_and(v_less(q, v_set(3)), kernel_exp(v_min(q, v_set(3))));
 }
 BODY vec kernel_gaussian_f(int dim, vec q) { return -2 * kernel_gaussian_w(dim, q); }
 BODY vec kernel_gaussian_laplacian(int dim, vec q)

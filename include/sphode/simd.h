@@ -1,8 +1,13 @@
 /* sphode/simd.h -- one vector type per translation unit: SPH_LANES doubles.
  *
  * SPH_LANES is a constant of the translation unit: 1 (the slow, plain reference), 2, 4 (AVX2), 8
- * (AVX-512).  Operators + - * / and comparisons work on vec as on double; the functions below do
- * the rest. */
+ * (AVX-512).  Operators + - * / work on vec as on double, comparisons where it holds doubles; the
+ * functions below do the rest.
+ *
+ * With SPH_VEC_TANGENT vec is one complex number instead, a value and, tiny beside it, a
+ * derivative (complex step; Martins, Sturdza & Alonso 2003): a body that uses the operators + - * /
+ * and the functions below then differentiates itself, exactly to rounding.  Constants of a body
+ * that it may be differentiated with respect to are vec_scalar. */
 #ifndef SPHODE_SIMD_H
 #define SPHODE_SIMD_H
 
@@ -10,7 +15,9 @@
 #include <stdint.h>
 #include <string.h>
 
-#ifndef SPH_LANES
+#ifdef SPH_VEC_TANGENT
+#define SPH_LANES 1
+#elif !defined(SPH_LANES)
 #if defined(__AVX512F__)
 #define SPH_LANES 8
 #elif defined(__AVX__)
@@ -26,6 +33,29 @@
 
 #define BODY static inline __attribute__((always_inline, unused))
 
+#ifdef SPH_VEC_TANGENT
+
+typedef double _Complex vec, vec_scalar;
+typedef int vec_mask;
+
+BODY vec v_set(vec_scalar a) { return a; }
+BODY vec v_load(const double *a) { return *a; }
+BODY vec v_gather(const double *a, long stride) { return a[0 * stride]; }
+BODY void v_store(double *to, vec a) { *to = __real__ a; }
+BODY vec_mask v_less(vec a, vec b) { return __real__ a < __real__ b; }
+BODY vec v_and(vec_mask m, vec a) { return m ? a : 0; }
+BODY vec v_select(vec_mask m, vec a, vec b) { return m ? a : b; }
+BODY vec v_max(vec a, vec b) { return v_less(b, a) ? a : b; }
+BODY vec v_min(vec a, vec b) { return v_less(a, b) ? a : b; }
+BODY vec v_sqrt(vec a) /* without slope at 0 */
+{
+  double root = sqrt(__real__ a);
+  return __builtin_complex(root, root > 0 ? __imag__ a / (2 * root) : 0);
+}
+
+#else
+
+typedef double vec_scalar; /* of a body's constants */
 typedef double vec __attribute__((vector_size(8 * SPH_LANES)));
 typedef int64_t vec_mask __attribute__((vector_size(8 * SPH_LANES)));
 
@@ -43,6 +73,7 @@ BODY vec v_gather(const double *a, long stride) /* a[0], a[stride], a[2 stride],
   return r;
 }
 BODY void v_store(double *to, vec a) { memcpy(to, &a, sizeof a); }
+BODY vec_mask v_less(vec a, vec b) { return (vec_mask)(a < b); }
 BODY vec v_and(vec_mask m, vec a) { return (vec)(m & (vec_mask)a); }
 BODY vec v_select(vec_mask m, vec a, vec b) /* m ? a : b */
 {
@@ -88,8 +119,11 @@ BODY unsigned v_bits(vec_mask m)
   return bits;
 }
 #endif
-BODY vec v_max0(vec a) { return v_max(a, (vec){0}); }
-BODY vec v_min0(vec a) { return v_min(a, (vec){0}); }
+
+#endif /* SPH_VEC_TANGENT */
+
+BODY vec v_max0(vec a) { return v_max(a, v_set(0)); }
+BODY vec v_min0(vec a) { return v_min(a, v_set(0)); }
 BODY vec v_abs(vec a) { return v_max(a, -a); }
 
 #endif

@@ -39,6 +39,7 @@ sph_eos sph_eos_isothermal(double rho0, double c0)
                    .p_min = -INFINITY,
                    .pressure = pressure,
                    .density = density,
+                   .slopes = sph_eos_power_slopes,
                    .elastic_energy = elastic_energy};
 }
 

@@ -33,6 +33,20 @@ static double energy_at(const sph_eos *eos, double rho, double p)
   return (p + eos->gamma * eos->p_inf) / ((eos->gamma - 1) * rho) + eos->q;
 }
 
+void sph_eos_stiffened_slopes(const sph_eos *eos, long n, const double *rho, const double *u,
+                              double *p_rho, double *p_u, double *c_rho, double *c_u)
+{
+  const double g1 = eos->gamma - 1;
+  for (long i = 0; i < n; i++) {
+    double p = g1 * rho[i] * (u[i] - eos->q) - eos->gamma * eos->p_inf;
+    double c2 = eos->gamma * (p + eos->p_inf) / rho[i], c = sqrt(c2);
+    p_rho[i] = g1 * (u[i] - eos->q);
+    p_u[i] = g1 * rho[i];
+    c_rho[i] = (eos->gamma * p_rho[i] - c2) / (2 * c * rho[i]);
+    c_u[i] = eos->gamma * g1 / (2 * c);
+  }
+}
+
 static void temperature(const sph_eos *eos, long n, const double *rho, const double *u, double *T)
 {
   for (long i = 0; i < n; i++) T[i] = (u[i] - eos->q - eos->p_inf / rho[i]) / eos->c_v;
@@ -61,6 +75,7 @@ sph_eos sph_eos_stiffened_gas(double rho0, double gamma, double p_inf, double q)
                    .thermal = 1,
                    .pressure = pressure,
                    .density = density,
+                   .slopes = sph_eos_stiffened_slopes,
                    .energy_at = energy_at,
                    .temperature = temperature,
                    .energy = energy,

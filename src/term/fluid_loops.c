@@ -3,15 +3,6 @@
 #include "fluid_loops.h"
 #include "fluid_terms.h"
 
-BODY void fluid_pair(int dim, int kernel, unsigned terms, const fluid_constants *k,
-                     const vec *slot_i, const vec *slot_j, vec *sum)
-{
-  const particle i = fluid_particle(dim, terms, slot_i), j = fluid_particle(dim, terms, slot_j);
-  pair p = fluid_pair_common(dim, kernel, terms, k, &i, &j);
-  fluid_terms(dim, kernel, terms, &p, k, &i, &j, sum);
-  fluid_pair_forces(dim, terms, &p, sum);
-}
-
 #define FLUID(kernel, dim, set, mask, slots, sums)                                    \
   BODY void body_##kernel##_##dim##_##set(int d, const void *constants, const vec *i, \
                                           const vec *j, vec *sum)                     \

@@ -72,22 +72,24 @@ enum {
 
 enum { SPH_FOURTAKAS_TERMS = 8 }; /* of the series of its hydrostatic density */
 
-/* Of one interaction (target group, source group). */
+/* Of one interaction (target group, source group).  Behind terms vec_scalar only: the tangent loops
+ * (tangent_loops.h) take these numbers with their derivatives. */
 typedef struct fluid_constants {
   unsigned terms;
-  double inverse_h;
-  double eta2;                        /* 0.01 h^2 [m^2] */
-  double viscosity_1, viscosity_2;    /* -alpha h [m], 2 beta h^2 [m^2] */
-  double signal_1, signal_2;          /* -alpha, beta of the signal velocity */
-  double laminar;                     /* Morris: eta_i + eta_j; MCG: 4 (d + 2) eta_i eta_j/(eta_i +
+  vec_scalar inverse_h;
+  vec_scalar eta2;                     /* 0.01 h^2 [m^2] */
+  vec_scalar viscosity_1, viscosity_2; /* -alpha h [m], 2 beta h^2 [m^2] */
+  vec_scalar signal_1, signal_2;       /* -alpha, beta of the signal velocity */
+  vec_scalar laminar;                  /* Morris: eta_i + eta_j; MCG: 4 (d + 2) eta_i eta_j/(eta_i +
                                       eta_j) [Pa s] */
-  double conduction;                  /* 4 kappa_i kappa_j/(kappa_i + kappa_j) [W/(m K)] */
-  double alpha_u;                     /* artificial conductivity */
-  double epsilon;                     /* XSPH */
-  double rho0;                        /* Fourtakas: reference density [kg/m^3], */
-  double column[3];                   /* -gamma g/c0^2 [1/m], */
-  double series[SPH_FOURTAKAS_TERMS]; /* (1/gamma - k)/(k + 1) */
+  vec_scalar conduction;               /* 4 kappa_i kappa_j/(kappa_i + kappa_j) [W/(m K)] */
+  vec_scalar alpha_u;                  /* artificial conductivity */
+  vec_scalar epsilon;                  /* XSPH */
+  vec_scalar rho0;                     /* Fourtakas: reference density [kg/m^3], */
+  vec_scalar column[3];                /* -gamma g/c0^2 [1/m], */
+  vec_scalar series[SPH_FOURTAKAS_TERMS]; /* (1/gamma - k)/(k + 1) */
 } fluid_constants;
+enum { SPH_FLUID_NUMBERS = (sizeof(fluid_constants) - sizeof(double)) / sizeof(vec_scalar) };
 
 typedef struct particle {
   vec x[3], v[3], rho, p, c, V, extra[3], u, T, phi;
@@ -137,8 +139,8 @@ BODY vec fluid_dot(int dim, const vec *a, const vec *b)
   return sum;
 }
 
-/* At least this: a particle with itself divides zero by it. */
-BODY vec fluid_apart(vec a) { return v_max(a, v_set(1e-300)); }
+/* At least this: a particle with itself divides zero by it; the square of it is not zero. */
+BODY vec fluid_apart(vec a) { return v_max(a, v_set(1e-150)); }
 
 BODY pair fluid_pair_common(int dim, int kernel, unsigned terms, const fluid_constants *k,
                             const particle *i, const particle *j)

@@ -1,4 +1,5 @@
-/* fluid_terms.h -- the bodies of all built-in pair terms, one after another on the same pair. */
+/* fluid_terms.h -- the bodies of all built-in pair terms, one after another on the same pair,
+ * and the whole pair. */
 #ifndef SPH_FLUID_TERMS_H
 #define SPH_FLUID_TERMS_H
 #include "term_conduction.h"
@@ -26,6 +27,16 @@ BODY void fluid_terms(int dim, int kernel, unsigned terms, pair *p, const fluid_
   if (terms & SPH_ANTUONO) term_delta_antuono(dim, terms, p, i, j, sum);
   if (terms & SPH_FOURTAKAS) term_delta_fourtakas(dim, p, k, i, j, sum);
   if (terms & SPH_XSPH) term_xsph(dim, kernel, p, k, i, j, sum);
+}
+
+/* One pair: the bodies of its terms, closed by fluid_pair_forces. */
+BODY void fluid_pair(int dim, int kernel, unsigned terms, const fluid_constants *k,
+                     const vec *slot_i, const vec *slot_j, vec *sum)
+{
+  const particle i = fluid_particle(dim, terms, slot_i), j = fluid_particle(dim, terms, slot_j);
+  pair p = fluid_pair_common(dim, kernel, terms, k, &i, &j);
+  fluid_terms(dim, kernel, terms, &p, k, &i, &j, sum);
+  fluid_pair_forces(dim, terms, &p, sum);
 }
 
 #endif

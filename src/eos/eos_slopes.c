@@ -1,0 +1,103 @@
+/* Derivatives of p, c, T and T (dp/dT)_rho with respect to rho and u (or T): formulas where an
+ * equation of state gives them, else differences
+ *
+ *   f'(x) = [8 (f(x + e) - f(x - e)) - (f(x + 2e) - f(x - 2e))]/(12 e) + O(e^4),
+ *
+ * e a thousandth of x: 1e-12 of a smooth f, and wrong within 2e of a kink. */
+#include <math.h>
+#include <stddef.h>
+
+#include "eos_table.h"
+
+enum { POINTS = 4 };
+static const double at[POINTS] = {-2, -1, 1, 2};
+static const double weight[POINTS] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
+static const double STEP = 0x1p-10;
+
+static double stiffness(const sph_eos *eos, double rho, double u)
+{
+  double p, c;
+  eos->pressure(eos, 1, &rho, &u, &p, &c);
+  return c * c;
+}
+
+/* p and c of one state along d rho = a, du = b. */
+static void along(const sph_eos *eos, double rho, double u, double a, double b, double *p_slope,
+                  double *c_slope)
+{
+  *p_slope = *c_slope = 0;
+  for (int k = 0; k < POINTS; k++) {
+    double rho_k = rho + at[k] * STEP * a, u_k = u + at[k] * STEP * b, p, c;
+    eos->pressure(eos, 1, &rho_k, eos->thermal ? &u_k : NULL, &p, &c);
+    *p_slope += weight[k] / STEP * p;
+    *c_slope += weight[k] / STEP * c;
+  }
+}
+
+void sph_eos_slopes(const sph_eos *eos, long n, const double *rho, const double *u, double *p_rho,
+                    double *p_u, double *c_rho, double *c_u)
+{
+  if (eos->slopes) {
+    eos->slopes(eos, n, rho, u, p_rho, p_u, c_rho, c_u);
+    return;
+  }
+  for (long i = 0; i < n; i++) {
+    p_u[i] = c_u[i] = 0;
+    along(eos, rho[i], u ? u[i] : 0, rho[i], 0, &p_rho[i], &c_rho[i]);
+    p_rho[i] /= rho[i];
+    c_rho[i] /= rho[i];
+    if (!eos->thermal) continue;
+    double scale = fmax(fabs(u[i]), stiffness(eos, rho[i], u[i])) / 4; /* of u */
+    along(eos, rho[i], u[i], 0, scale, &p_u[i], &c_u[i]);
+    p_u[i] /= scale;
+    c_u[i] /= scale;
+  }
+}
+
+/* Barotropic: dp/drho = c^2, also on the cut, where c = 0; c ~ rho^((gamma-1)/2). */
+void sph_eos_power_slopes(const sph_eos *eos, long n, const double *rho, const double *u,
+                          double *p_rho, double *p_u, double *c_rho, double *c_u)
+{
+  eos->pressure(eos, n, rho, u, p_u, c_u); /* c, for the moment */
+  for (long i = 0; i < n; i++) {
+    p_rho[i] = c_u[i] * c_u[i];
+    c_rho[i] = (eos->gamma - 1) / 2 * c_u[i] / rho[i];
+    p_u[i] = c_u[i] = 0;
+  }
+}
+
+typedef void function(const sph_eos *eos, long n, const double *rho, const double *y, double *f);
+
+static void slopes_of(function *f, const sph_eos *eos, long n, const double *rho, const double *y,
+                      double *f_rho, double *f_y)
+{
+  for (long i = 0; i < n; i++) {
+    double step_y = STEP * (y[i] != 0 ? fabs(y[i]) : 1), step_rho = STEP * rho[i], value;
+    f_rho[i] = f_y[i] = 0;
+    for (int k = 0; k < POINTS; k++) {
+      double rho_k = rho[i] + at[k] * step_rho, y_k = y[i] + at[k] * step_y;
+      f(eos, 1, &rho_k, &y[i], &value);
+      f_rho[i] += weight[k] / step_rho * value;
+      f(eos, 1, &rho[i], &y_k, &value);
+      f_y[i] += weight[k] / step_y * value;
+    }
+  }
+}
+
+void sph_eos_temperature_slopes(const sph_eos *eos, long n, const double *rho, const double *u,
+                                double *T_rho, double *T_u)
+{
+  if (eos->temperature)
+    slopes_of(sph_eos_temperature, eos, n, rho, u, T_rho, T_u);
+  else
+    for (long i = 0; i < n; i++) {
+      T_rho[i] = 0;
+      T_u[i] = eos->c_v > 0 ? 1 / eos->c_v : 0;
+    }
+}
+
+void sph_eos_thermal_pressure_slopes(const sph_eos *eos, long n, const double *rho, const double *T,
+                                     double *pT_rho, double *pT_T)
+{
+  slopes_of(sph_eos_thermal_pressure, eos, n, rho, T, pT_rho, pT_T);
+}
