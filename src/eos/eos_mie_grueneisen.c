@@ -4,7 +4,7 @@
  *   p = p_r(chi) + Gamma0 rho0 u
  *   chi >= 0: p_r = p_H (1 - Gamma0 chi/2), p_H = rho0 c0^2 chi/(1 - s chi)^2
  *   chi <  0: p_r = c0^2 (rho - rho0) = rho0 c0^2 chi/(1 - chi)
- *   c^2 = (rho0/rho)^2 [p_r'(chi) + Gamma0 p]/rho0
+ *   c^2 = (rho0/rho)^2 [p_r'(chi) + Gamma0 p]/rho0,  dp/drho = c^2 - (p/rho^2) dp/du
  *   rho: at given p, u a quadratic in chi, or linear
  *
  * p_r and p_r' join at rho0.  No state at chi >= 1/s, nor where c^2 <= 0.
@@ -32,6 +32,15 @@ static double reference(const sph_eos *eos, double chi, double *slope)
   return chi < 0 ? chi / b : a > 0 ? compressed : NAN;
 }
 
+/* Second derivative of p_r/(rho0 c0^2). */
+static double curvature(const sph_eos *eos, double chi)
+{
+  const double s = eos->slope, G = eos->grueneisen, a = 1 - s * chi, b = 1 - chi;
+  if (chi < 0) return 2 / (b * b * b);
+  double steeper = (s + 3 * s * (1 + s * chi) / a) * (1 - 0.5 * G * chi);
+  return (steeper - 0.5 * G * (1 + s * chi) - 0.5 * G * a - G * s * chi) / (a * a * a);
+}
+
 static void pressure(const sph_eos *eos, long n, const double *rho, const double *u, double *p,
                      double *c)
 {
@@ -42,6 +51,21 @@ static void pressure(const sph_eos *eos, long n, const double *rho, const double
     p[i] = rho0 * (c02 * p_r + G * u[i]);
     double c2 = x * x * (c02 * slope + G * p[i] / rho0);
     c[i] = sqrt(c2 > 0 ? c2 : NAN);
+  }
+}
+
+static void slopes(const sph_eos *eos, long n, const double *rho, const double *u, double *p_rho,
+                   double *p_u, double *c_rho, double *c_u)
+{
+  const double rho0 = eos->rho0, c02 = eos->c0 * eos->c0, G = eos->grueneisen;
+  for (long i = 0; i < n; i++) {
+    double x = rho0 / rho[i], chi = (rho[i] - rho0) / rho[i], p, c;
+    pressure(eos, 1, &rho[i], &u[i], &p, &c);
+    p_u[i] = G * rho0;
+    p_rho[i] = c * c - p / (rho[i] * rho[i]) * p_u[i];
+    double c2_rho = x * x * (c02 * curvature(eos, chi) * x / rho[i] + G * p_rho[i] / rho0);
+    c_rho[i] = c2_rho / (2 * c) - c / rho[i];
+    c_u[i] = x * x * G * G / (2 * c);
   }
 }
 
@@ -112,6 +136,7 @@ sph_eos sph_eos_mie_grueneisen(double rho0, double c0, double slope, double grue
                    .thermal = 1,
                    .pressure = pressure,
                    .density = density,
+                   .slopes = slopes,
                    .energy_at = energy_at,
                    .temperature = temperature,
                    .energy = energy,

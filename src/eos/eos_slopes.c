@@ -68,36 +68,38 @@ void sph_eos_power_slopes(const sph_eos *eos, long n, const double *rho, const d
 
 typedef void function(const sph_eos *eos, long n, const double *rho, const double *y, double *f);
 
-static void slopes_of(function *f, const sph_eos *eos, long n, const double *rho, const double *y,
+/* Of f(rho, y), where y is of the size of `scale`. */
+static void slopes_of(function *f, const sph_eos *eos, double rho, double y, double scale,
                       double *f_rho, double *f_y)
 {
-  for (long i = 0; i < n; i++) {
-    double step_y = STEP * (y[i] != 0 ? fabs(y[i]) : 1), step_rho = STEP * rho[i], value;
-    f_rho[i] = f_y[i] = 0;
-    for (int k = 0; k < POINTS; k++) {
-      double rho_k = rho[i] + at[k] * step_rho, y_k = y[i] + at[k] * step_y;
-      f(eos, 1, &rho_k, &y[i], &value);
-      f_rho[i] += weight[k] / step_rho * value;
-      f(eos, 1, &rho[i], &y_k, &value);
-      f_y[i] += weight[k] / step_y * value;
-    }
+  double step_rho = STEP * rho, step_y = STEP * scale, value;
+  *f_rho = *f_y = 0;
+  for (int k = 0; k < POINTS; k++) {
+    double rho_k = rho + at[k] * step_rho, y_k = y + at[k] * step_y;
+    f(eos, 1, &rho_k, &y, &value);
+    *f_rho += weight[k] / step_rho * value;
+    f(eos, 1, &rho, &y_k, &value);
+    *f_y += weight[k] / step_y * value;
   }
 }
 
 void sph_eos_temperature_slopes(const sph_eos *eos, long n, const double *rho, const double *u,
                                 double *T_rho, double *T_u)
 {
-  if (eos->temperature)
-    slopes_of(sph_eos_temperature, eos, n, rho, u, T_rho, T_u);
-  else
-    for (long i = 0; i < n; i++) {
-      T_rho[i] = 0;
-      T_u[i] = eos->c_v > 0 ? 1 / eos->c_v : 0;
-    }
+  for (long i = 0; i < n; i++) {
+    double T;
+    T_rho[i] = 0;
+    T_u[i] = eos->c_v > 0 ? 1 / eos->c_v : 0;
+    if (!(eos->c_v > 0) || !eos->temperature) continue;
+    eos->temperature(eos, 1, &rho[i], &u[i], &T);
+    slopes_of(eos->temperature, eos, rho[i], u[i], fabs(u[i]) + eos->c_v * fabs(T), &T_rho[i],
+              &T_u[i]);
+  }
 }
 
 void sph_eos_thermal_pressure_slopes(const sph_eos *eos, long n, const double *rho, const double *T,
                                      double *pT_rho, double *pT_T)
 {
-  slopes_of(sph_eos_thermal_pressure, eos, n, rho, T, pT_rho, pT_T);
+  for (long i = 0; i < n; i++)
+    slopes_of(sph_eos_thermal_pressure, eos, rho[i], T[i], fabs(T[i]), &pT_rho[i], &pT_T[i]);
 }

@@ -256,6 +256,84 @@ static double slope(double (*function)(double, void *), thermal_state *s, double
   return result;
 }
 
+static double c_of_rho(double rho, void *context)
+{
+  thermal_state *s = context;
+  double c;
+  pressure_of(&s->eos, rho, s->u, &c);
+  return c;
+}
+static double c_of_u(double u, void *context)
+{
+  thermal_state *s = context;
+  double c;
+  pressure_of(&s->eos, s->rho, u, &c);
+  return c;
+}
+static double T_of_u(double u, void *context)
+{
+  const thermal_state *s = context;
+  double T;
+  sph_eos_temperature(&s->eos, 1, &s->rho, &u, &T);
+  return T;
+}
+
+/* unit: of the function itself; differences of GSL are right to about 1e-10 of unit/x. */
+static void assert_slope(double found, double (*f)(double, void *), thermal_state *s, double x,
+                         double scale, double unit)
+{
+  double expected = slope(f, s, x, 1e-4 * scale);
+  if (!(fabs(found - expected) <= 1e-9 * (unit / scale + fabs(expected))))
+    fail_msg("%s at %g, %g: slope %.15g, by differences %.15g", s->eos.name, s->rho, s->u, found,
+             expected);
+}
+
+/* Formulas, and the differences in their place. */
+static void slopes_at(thermal_state *s)
+{
+  double p_rho, p_u, c_rho, c_u, T_rho, T_u, c, p = pressure_of(&s->eos, s->rho, s->u, &c), T = 0;
+  double unit = fabs(p) + s->rho * c * c, scale = fabs(s->u) + c * c;
+  sph_eos_slopes(&s->eos, 1, &s->rho, &s->u, &p_rho, &p_u, &c_rho, &c_u);
+  assert_slope(p_rho, p_of_rho_u, s, s->rho, s->rho, unit);
+  assert_slope(c_rho, c_of_rho, s, s->rho, s->rho, c);
+  if (s->eos.thermal) {
+    assert_slope(p_u, p_of_u, s, s->u, scale, unit);
+    assert_slope(c_u, c_of_u, s, s->u, scale, c);
+  } else
+    assert_true(p_u == 0 && c_u == 0);
+  if (!(s->eos.c_v > 0)) return;
+  sph_eos_temperature(&s->eos, 1, &s->rho, &s->u, &T);
+  sph_eos_temperature_slopes(&s->eos, 1, &s->rho, &s->u, &T_rho, &T_u);
+  assert_slope(T_rho, T_of_rho, s, s->rho, s->rho, scale / s->eos.c_v + fabs(T));
+  assert_slope(T_u, T_of_u, s, s->u, scale, scale / s->eos.c_v + fabs(T));
+}
+
+static void slopes(void **state)
+{
+  (void)state;
+  thermal_state s;
+  for (int differences = 0; differences < 2; differences++) {
+    for (int k = 0; thermal(k, &s); k++) {
+      if (differences) s.eos.slopes = NULL;
+      int solid = !strcmp(s.eos.name, "mie-grueneisen"), cold = k / 5 % 3 == 0 && !solid;
+      int kink = solid && fabs(s.rho / s.eos.rho0 - 1) < 0.01;
+      if (cold || kink) continue; /* no state, or a kink of c, is beside it */
+      slopes_at(&s);
+    }
+    for (int k = 0; barotropic(k, &s.eos); k++) {
+      if (differences) s.eos.slopes = NULL;
+      for (double x = 0.9; x < 1.15; x += 0.0377) {
+        s.rho = x * s.eos.rho0;
+        slopes_at(&s);
+      }
+    }
+  }
+  s.eos = sph_eos_linear(1000, 20, 0);
+  double on_the_cut = 990, u = 0, p_rho, p_u, c_rho, c_u;
+  sph_eos_slopes(&s.eos, 1, &on_the_cut, &u, &p_rho, &p_u, &c_rho, &c_u);
+  assert_true(p_rho == 0 && c_rho == 0);
+}
+
 /* c^2 = (dp/drho)_u + (p/rho^2) (dp/du)_rho; steps that stay on one branch. */
 static void thermal_sound_speed(void **state)
 {
@@ -681,6 +759,7 @@ int main(void)
       cmocka_unit_test(polynomial_is_power),
       cmocka_unit_test(cut),
       cmocka_unit_test(ideal_gas),
+      cmocka_unit_test(slopes),
       cmocka_unit_test(thermal_sound_speed),
       cmocka_unit_test(thermal_inverse),
       cmocka_unit_test(thermodynamics),
