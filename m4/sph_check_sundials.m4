@@ -23,6 +23,7 @@ sph_save_CPPFLAGS=$CPPFLAGS sph_save_LIBS=$LIBS
 CPPFLAGS="$CPPFLAGS $SUNDIALS_CPPFLAGS"
 AC_CHECK_HEADER([sundials/sundials_config.h], [_SPH_SUNDIALS_INSPECT])
 AS_IF([test "x$SUNDIALS_VERSION" != x], [_SPH_SUNDIALS_LINK])
+AS_IF([test $sph_have_sundials = yes], [_SPH_SUNDIALS_CVODE])
 CPPFLAGS=$sph_save_CPPFLAGS LIBS=$sph_save_LIBS
 AC_SUBST([SUNDIALS_CPPFLAGS])
 AC_SUBST([SUNDIALS_PC_LIBS], ["`AS_ECHO(["$SUNDIALS_LIBS"]) | sed 's/ -R/ -Wl,-rpath,/g'`"])
@@ -86,4 +87,18 @@ AS_IF([test "x$MPICC" != x],
    }
    SUNDIALS_CPPFLAGS="$SUNDIALS_CPPFLAGS $sph_mpi_flags"],
   [AC_MSG_WARN([SUNDIALS $SUNDIALS_VERSION has MPI in it and no mpicc was found])])
+])
+
+# CVODE with GMRES: an example drives it, the library does not need it.  Sets sph_have_cvode, CVODE_LIBS.
+AC_DEFUN([_SPH_SUNDIALS_CVODE], [
+sph_have_cvode=no CVODE_LIBS="-lsundials_cvode -lsundials_sunlinsolspgmr"
+AC_MSG_CHECKING([whether SUNDIALS has CVODE])
+LIBS="$sph_rpath $CVODE_LIBS $LIBS"
+AC_LINK_IFELSE(
+  [AC_LANG_PROGRAM([[#include <cvode/cvode.h>
+#include <sunlinsol/sunlinsol_spgmr.h>]], [[void *cvode = CVodeCreate, *solver = SUNLinSol_SPGMR;
+    return !cvode || !solver;]])],
+  [sph_have_cvode=yes], [CVODE_LIBS=])
+AC_MSG_RESULT([$sph_have_cvode])
+AC_SUBST([CVODE_LIBS])
 ])

@@ -20,6 +20,14 @@ extern "C" {
  * failure. */
 SPH_API N_Vector sph_sim_vector(sph_sim *sim);
 
+/* Takes (t, y) for the state of the simulation, after a solver of your own has come there: fields,
+ * sph_sim_time and outputs then show it, and sph_sim_run goes on from it.  y: that of
+ * sph_sim_vector, or a clone, copied.  A status. */
+SPH_API int sph_sim_set_vector(sph_sim *sim, double t, N_Vector y);
+
+/* Solvers of plain arrays (GSL, PETSc, your own): N_VBufPack(y, array) copies the N_VGetLength(y)
+ * entries of a vector, without padding, to an array, N_VBufUnpack(y, array) back from it. */
+
 /* f(t, y), an ARKRhsFn and CVRhsFn with the simulation as user data: 0, > 0 where y is not
  * admissible (try a smaller step), < 0 after a failure (sph_sim_error tells it). */
 SPH_API int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *sim);

@@ -352,4 +352,19 @@ int sph_sim_evaluate(sph_sim *sim)
   return status;
 }
 
+int sph_sim_set_vector(sph_sim *sim, double t, N_Vector y)
+{
+  int status = sph_sim_prepare(sim);
+  if (status) return status;
+  if (!y || !isfinite(t))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "sph_sim_set_vector: t = %g s, y %s; right is a finite time and a vector",
+                        t, y ? "given" : "NULL");
+  if (y != sim->y) N_VScale(1, y, sim->y);
+  sim->shown = sim->y;
+  sim->time = t;
+  sph_sim_changed(sim);
+  return SPH_OK;
+}
+
 N_Vector sph_sim_vector(sph_sim *sim) { return sph_sim_prepare(sim) == SPH_OK ? sim->y : NULL; }

@@ -441,6 +441,29 @@ static void space(N_Vector v, sunindextype *reals, sunindextype *integers)
   *integers = 2;
 }
 
+/* Entries without padding, to or from a plain array. */
+static int buffer_size(N_Vector v, sunindextype *bytes)
+{
+  *bytes = length(v) * (sunindextype)sizeof(double);
+  return 0;
+}
+
+static int buffer_copy(N_Vector v, double *buffer, int out)
+{
+  const sph_layout *layout = of(v)->shared->layout;
+  if (of(v)->shared->lost || !buffer) return -1;
+  for (int k = 0; k < layout->segments; k++) {
+    const sph_segment *segment = &layout->segment[k];
+    double *entries = data(v) + segment->offset;
+    memcpy(out ? buffer : entries, out ? entries : buffer, (size_t)segment->n * sizeof *buffer);
+    buffer += segment->n;
+  }
+  return 0;
+}
+
+static int buffer_pack(N_Vector v, void *buffer) { return buffer_copy(v, buffer, 1); }
+static int buffer_unpack(N_Vector v, void *buffer) { return buffer_copy(v, buffer, 0); }
+
 static void set_operations(N_Vector_Ops ops)
 {
   ops->nvgetvectorid = identity;
@@ -474,6 +497,9 @@ static void set_operations(N_Vector_Ops ops)
   ops->nvlinearcombination = linear_combination;
   ops->nvscaleaddmulti = scale_add_multi;
   ops->nvdotprodmulti = dot_multi;
+  ops->nvbufsize = buffer_size;
+  ops->nvbufpack = buffer_pack;
+  ops->nvbufunpack = buffer_unpack;
 }
 
 N_Vector sph_nvector_create(const sph_layout *layout, int threads, SUNContext context,

@@ -12,6 +12,11 @@ for source in "${examples[@]}"; do
   arguments=()
   [[ $name == 03_* ]] && arguments=(20) # particles across the height of the column
   count=$((count + 1)) start=$SECONDS
+  # What these two drive is not there everywhere: configure says so, and they are not built.
+  if [[ $name =~ _(cvode|petsc)$ && ! -x $BUILDDIR/examples/$name ]]; then
+    echo "ok $count - $name # SKIP configure found no ${BASH_REMATCH[1]^^}"
+    continue
+  fi
   if "$BUILDDIR/examples/$name" "${arguments[@]}" >log 2>&1 </dev/null; then
     echo "ok $count - $name ($((SECONDS - start)) s)"
   else

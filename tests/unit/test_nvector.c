@@ -230,6 +230,28 @@ static void clones(void **state)
   N_VDestroy(v);
 }
 
+/* A plain array of the entries, without padding, and back. */
+static void plain_arrays(void **state)
+{
+  (void)state;
+  pair p = make(2);
+  sunindextype bytes = 0;
+  static double array[44119 + 1], back[44119];
+  array[layout.entries] = PADDING;
+  assert_int_equal(N_VBufSize(p.ours[0], &bytes), 0);
+  assert_int_equal(bytes, layout.entries * (long)sizeof(double));
+  assert_int_equal(N_VBufPack(p.ours[0], array), 0);
+  assert_memory_equal(array, N_VGetArrayPointer(p.serial[0]), (size_t)bytes);
+  assert_true(array[layout.entries] == PADDING);
+  assert_int_equal(N_VBufUnpack(p.ours[1], array), 0);
+  N_VScale(1, p.serial[0], p.serial[1]);
+  assert_same(&p, 1, "N_VBufUnpack");
+  assert_int_equal(N_VBufPack(p.ours[1], back), 0);
+  assert_memory_equal(array, back, (size_t)bytes);
+  assert_true(N_VBufPack(p.ours[0], NULL) != 0);
+  drop(&p);
+}
+
 /* A segment's n may change: the norm then counts what it holds. */
 static void entries_may_come_and_go(void **state)
 {
@@ -258,6 +280,7 @@ int main(void)
       cmocka_unit_test(tests_of_entries),
       cmocka_unit_test(bits_do_not_depend_on_threads),
       cmocka_unit_test(clones),
+      cmocka_unit_test(plain_arrays),
       cmocka_unit_test(entries_may_come_and_go),
   };
   return cmocka_run_group_tests_name("nvector", tests, NULL, NULL);

@@ -1,7 +1,9 @@
 /* sphode/sundials.h: a simulation as a system of ODEs for somebody else's solver. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -76,9 +78,47 @@ static void weights(void **state)
   sph_sim_free(sim);
 }
 
+/* A state from elsewhere is shown like the simulation's own: its pressure, its time, and runs go on
+ * from it; particles have moved by more than the lists bear. */
+static void state_from_elsewhere(void **state)
+{
+  (void)state;
+  double vx = 0.3, t = 0.05;
+  sph_sim *a = square(&vx), *b = square(&vx);
+  assert_int_equal(sph_sim_run(a, t), SPH_OK);
+  N_Vector y = sph_sim_vector(a), copy = N_VClone(sph_sim_vector(b));
+  double *plain = calloc((size_t)N_VGetLength(y), sizeof *plain);
+  assert_non_null(plain);
+  N_VBufPack(y, plain);
+  N_VBufUnpack(copy, plain);
+  assert_int_equal(sph_sim_set_vector(b, t, copy), SPH_OK);
+  assert_true(sph_sim_time(b) == t);
+  const sph_group *of_a = sph_sim_group(a, "square"), *of_b = sph_sim_group(b, "square");
+  size_t bytes = (size_t)sph_group_count(of_a) * sizeof(double);
+  assert_memory_equal(sph_group_read(of_a, "position", 0), sph_group_read(of_b, "position", 0),
+                      bytes);
+  assert_memory_equal(sph_group_read(of_a, "pressure", 0), sph_group_read(of_b, "pressure", 0),
+                      bytes);
+  sph_sim_changed(a); /* it starts anew from there, like b */
+  assert_int_equal(sph_sim_step(a), SPH_OK);
+  assert_int_equal(sph_sim_step(b), SPH_OK);
+  assert_true(sph_sim_time(b) > t && sph_sim_time(a) == sph_sim_time(b));
+  assert_memory_equal(sph_group_read(of_a, "velocity", 0), sph_group_read(of_b, "velocity", 0),
+                      bytes);
+  N_VDestroy(copy);
+  free(plain);
+  assert_true(sph_sim_set_vector(b, NAN, sph_sim_vector(b)) < 0);
+  assert_non_null(strstr(sph_sim_error(b), "t = nan s, y given"));
+  assert_true(sph_sim_set_vector(a, 1, NULL) < 0);
+  assert_true(sph_sim_set_vector(NULL, 1, NULL) < 0);
+  sph_sim_free(a);
+  sph_sim_free(b);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(rates), cmocka_unit_test(refusals),
-                                     cmocka_unit_test(weights)};
+                                     cmocka_unit_test(weights),
+                                     cmocka_unit_test(state_from_elsewhere)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
