@@ -45,8 +45,9 @@ static const command commands[] = {
      "      --frames N         snapshots on the sheet\n"},
     {"work-precision", "CASE.yml", "ostqfFITCRUNX", sph_prog_work_precision,
      "what each integrator needs for which temporal error",
-     "      --integrators LIST   names with commas between, each with further keys of the case's\n"
-     "                           integrator behind a +: imex:ark324l2sa-4-2-3+linear=cholmod\n"
+     "      --integrators LIST   names with commas between, each with keys of its own behind a +:\n"
+     "                           imex:ark324l2sa-4-2-3+linear=cholmod+terms.delta.part=implicit;\n"
+     "                           those that are not imex or mri leave aside the parts of terms\n"
      "                           (default: erk:bogacki-shampine-4-2-3,leapfrog)\n"
      "      --tolerances LIST    of those with error control (default: 1e-1,1e-2,...,1e-5)\n"
      "      --cfl LIST           of the others: fixed steps, as fractions of the stability limit\n"

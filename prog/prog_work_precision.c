@@ -45,8 +45,8 @@ static int numbers(const char *option, const char *text, double value[WORK_VALUE
   return 0;
 }
 
-/* Reads the case once more, with the integrator's own keys: "+linear=cholmod" sets
- * integrator.linear=cholmod. */
+/* Reads the case once more, with the method's own keys: "+linear=cholmod" sets
+ * integrator.linear=cholmod, "+terms.delta.part=implicit" what it says. */
 static int read_case(const prog_options *o, work_method *m, sph_error *error)
 {
   const char *set[PROG_SETS + 8];
@@ -61,7 +61,8 @@ static int read_case(const prog_options *o, work_method *m, sph_error *error)
   char *rest = label, *word = strsep(&rest, "+");
   snprintf(m->method, sizeof m->method, "%s", word);
   while ((word = strsep(&rest, "+")) && keys < 7) {
-    snprintf(own[keys], sizeof own[keys], "integrator.%s", word);
+    int dotted = memchr(word, '.', strcspn(word, "=")) != NULL;
+    snprintf(own[keys], sizeof own[keys], "%s%s", dotted ? "" : "integrator.", word);
     set[n++] = own[keys++];
   }
   m->c = sph_case_read(o->what, n, set, error);
@@ -153,11 +154,20 @@ static int failed(work_run *r, int status, const char *why)
   return PROG_OK;
 }
 
+/* A method that steps all terms alike leaves aside which parts they belong to. */
+static void attach(sph_sim *sim, const work_method *m, const sph_integrator_def *def)
+{
+  if (strncmp(m->method, "imex:", 5) && strncmp(m->method, "mri:", 4))
+    sph_sim_set_part(sim, NULL, "explicit");
+  sph_sim_set_integrator(sim, def);
+}
+
 /* From the case to its end; an exit status where the whole command is to stop. */
-static int go(work *w, work_run *r, sph_sim *sim, const sph_integrator_def *def)
+static int go(work *w, work_run *r, sph_sim *sim, const work_method *m,
+              const sph_integrator_def *def)
 {
   prog_progress progress;
-  sph_sim_set_integrator(sim, def);
+  attach(sim, m, def);
   if (sph_sim_evaluate(sim)) return failed(r, sph_sim_status(sim), sph_sim_error(sim));
   if (!w->fields.n) sph_prog_work_state_fields(sim, &w->fields);
   sph_prog_progress_start(&progress, sim, w->end, 1);
@@ -182,7 +192,7 @@ static int run_once(work *w, work_run *r, const work_method *m, const sph_integr
   sph_error error = {0};
   sph_sim *sim = sph_case_build(m->c, w->o->threads, &error);
   if (!sim) return sph_prog_error(PROG_FAILED, "%s", error.text);
-  int status = go(w, r, sim, def);
+  int status = go(w, r, sim, m, def);
   sph_sim_free(sim);
   return status;
 }
@@ -363,8 +373,10 @@ static int choose_field(work *w)
 static int first_look(work *w)
 {
   sph_error error = {0};
+  sph_integrator_def def = definition(&w->reference);
   sph_sim *sim = sph_case_build(w->reference.c, w->o->threads, &error);
   int status = PROG_OK;
+  attach(sim, &w->reference, &def);
   if (!sim)
     status = sph_prog_error(PROG_FAILED, "%s", error.text);
   else if (sph_sim_evaluate(sim))

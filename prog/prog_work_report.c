@@ -18,21 +18,35 @@ typedef struct cost {
 } cost;
 
 static const cost costs[] = {
-    {"steps", "steps"},
-    {"rejected", "rejected"},
-    {"evaluations", "evaluations"},
+    {"steps", "steps"},       {"rejected", "rejected"}, {"evaluations", "evaluations"},
+    {"implicit", "implicit"}, {"solves", "solves"},     {"iterations", "iterations"},
 };
-enum { COSTS = sizeof costs / sizeof *costs, EVALUATIONS = 2 };
+enum { COSTS = sizeof costs / sizeof *costs, EVALUATIONS = 2, IMPLICIT = 3 };
 
 static long cost_of(const work_run *r, int k)
 {
   const sph_step_stats *s = &r->stats.step;
-  const long value[COSTS] = {s->steps, s->rejected + s->retries, s->rhs_evaluations};
+  const long value[COSTS] = {s->steps,           s->rejected + s->retries,
+                             s->rhs_evaluations, s->implicit_evaluations,
+                             s->solves,          s->solve_iterations};
   return value[k];
 }
 
+/* Is that a column of the text?  What only some methods have is left out where none has it. */
+static int is_told(const work *w, int k)
+{
+  for (int r = 0; k > EVALUATIONS && r < w->runs; r++)
+    if (cost_of(&w->run[r], k)) return 1;
+  return k <= EVALUATIONS;
+}
+
+/* Those of f and of its implicit part. */
+static double evaluations(const work_run *r)
+{
+  return (double)(cost_of(r, EVALUATIONS) + cost_of(r, IMPLICIT));
+}
+
 static double seconds(const work_run *r) { return r->cpu; }
-static double evaluations(const work_run *r) { return (double)cost_of(r, EVALUATIONS); }
 
 /* The least cost of an integrator for an error of at most `error`, between two of its runs by
  * straight lines in the diagram; NaN: none of its runs is as good. */
@@ -97,7 +111,8 @@ static void put_run(const work *w, const work_run *r, const pages *to)
     put(to, "  failed: %s\n", r->reason);
     return;
   }
-  for (int k = 0; k < COSTS; k++) put(to, " %11ld", cost_of(r, k));
+  for (int k = 0; k < COSTS; k++)
+    if (is_told(w, k)) put(to, " %11ld", cost_of(r, k));
   put(to, " %9.3g ", r->cpu);
   for (int f = 0; f < w->fields.n; f++) put(to, " %9.2e", r->error[f]);
   put(to, "\n");
@@ -106,7 +121,8 @@ static void put_run(const work *w, const work_run *r, const pages *to)
 static void put_runs(const work *w, const pages *to)
 {
   put(to, "\n%-18s", "");
-  for (int k = 0; k < COSTS; k++) put(to, " %11s", costs[k].title);
+  for (int k = 0; k < COSTS; k++)
+    if (is_told(w, k)) put(to, " %11s", costs[k].title);
   put(to, " %9s ", "CPU [s]");
   for (int f = 0; f < w->fields.n; f++) put(to, " %9.9s", w->fields.name[f]);
   put(to, "\n");
@@ -275,7 +291,8 @@ int sph_prog_work_report(work *w)
   if (status) return status;
   if (!w->o->quiet) printf("\nresults      %s\n", w->directory);
   fflush(stdout);
-  if (!draw(w, "evaluations", evaluations, "evaluations of the right-hand side", "evaluations"))
+  if (!draw(w, "evaluations", evaluations,
+            "evaluations of the right-hand side (and of its implicit part)", "evaluations"))
     draw(w, "cpu", seconds, "CPU time [s]", "seconds");
   return PROG_OK;
 }

@@ -77,11 +77,21 @@ static void assign(sph_term_set *set, unsigned bits, int part)
   if (part == SPH_TERM_FAST) set->fast |= bits;
 }
 
+/* As if no part had been set. */
+static int forget(sph_term_set *set)
+{
+  set->implicit = set->fast = 0;
+  for (int k = 0; k < set->called; k++) set->call[k].part = SPH_TERM_EXPLICIT;
+  set->parted = 0;
+  return SPH_OK;
+}
+
 int sph_term_part_set(sph_term_set *set, const char *term, const char *part, sph_error *error)
 {
   int number = part_number(part, error), found = 0;
-  if (!term) term = "";
   if (number < 0) return SPH_ERR_ARGUMENT;
+  if (!term && number == SPH_TERM_EXPLICIT) return forget(set);
+  if (!term) term = "";
   for (int k = 0; k < BUILT_IN; k++) {
     if (strcmp(term, built_in[k].name) || !(bits_of(set) & built_in[k].bits)) continue;
     if (number == SPH_TERM_IMPLICIT && built_in[k].implicit == NEVER)

@@ -149,13 +149,12 @@ int sph_integrator_arkode_reject(sph_integrator *it)
   return outcome(it, own->call->reset(own->memory, it->time, it->y));
 }
 
-/* The problem's limits need rates at (time, y); `before` is free at that moment. */
+/* ARKODE took a copy of y when it was created: it is told of the y there is now.  The problem's
+ * limits need rates at (time, y); `before` is free at that moment. */
 int sph_integrator_arkode_start(sph_integrator *it)
 {
-  sph_integrator_arkode *own = it->own;
   int status = it->problem.limits ? sph_integrator_rhs(it, it->time, it->y, it->before) : SPH_OK;
-  if (!status && own->used) status = sph_integrator_arkode_reject(it);
-  return status;
+  return status ? status : sph_integrator_arkode_reject(it);
 }
 
 /* The step that ARKODE will try, and what it needs for it. */
@@ -186,7 +185,6 @@ int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *a, double t_s
     a->h = fmin(h, left);
     return outcome(it, flag);
   }
-  own->used = 1;
   own->fresh = 0;
   a->t = flag == ARK_TSTOP_RETURN ? t_stop : t;
   a->h = a->t - it->time;

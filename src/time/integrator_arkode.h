@@ -15,7 +15,6 @@ typedef struct sph_integrator_arkode {
   sph_sundials_listener listener;
   sph_sundials_controller controller;
   int listening;
-  int used;        /* ARKODE has made a step since its creation */
   int fresh;       /* the next attempt starts anew, with the step size of its plan */
   double error[2]; /* of the last two accepted steps, for controllers with memory; 1 at a start */
   double resume;   /* > 0: start anew with this step, which a stop time had cut short [s] */

@@ -83,7 +83,7 @@ static void weights(void **state)
 static void state_from_elsewhere(void **state)
 {
   (void)state;
-  double vx = 0.3, t = 0.05;
+  double vx = 0.02, t = 0.05;
   sph_sim *a = square(&vx), *b = square(&vx);
   assert_int_equal(sph_sim_run(a, t), SPH_OK);
   N_Vector y = sph_sim_vector(a), copy = N_VClone(sph_sim_vector(b));
@@ -100,7 +100,7 @@ static void state_from_elsewhere(void **state)
   assert_memory_equal(sph_group_read(of_a, "pressure", 0), sph_group_read(of_b, "pressure", 0),
                       bytes);
   sph_sim_changed(a); /* it starts anew from there, like b */
-  assert_int_equal(sph_sim_step(a), SPH_OK);
+  if (sph_sim_step(a)) fail_msg("%s", sph_sim_error(a));
   assert_int_equal(sph_sim_step(b), SPH_OK);
   assert_true(sph_sim_time(b) > t && sph_sim_time(a) == sph_sim_time(b));
   assert_memory_equal(sph_group_read(of_a, "velocity", 0), sph_group_read(of_b, "velocity", 0),
