@@ -71,6 +71,12 @@ typedef struct sph_integrator_def {
   /* Of a step's error, relative to the physical scales of each field; 0: 1e-2, or none where the
    * scheme has no estimate; < 0: no error control (CFL alone). */
   double tolerance;
+  /* Of the step size, by the errors of the last steps: "i", "pi", "gustafsson", "pid", "h211"
+   * (docs/theory.md, Time integration); NULL: "i", but that of Ranocha et al. for their pairs.
+   * Those that remember steps forget at a start, at a reset (sph_sim_changed, events that change,
+   * modifiers), at a retry, and where a stop cut a step short.  All have the safety factor 0.9, a
+   * step grows by 5 at most (the first by 10), and shrinks to 0.1 at least. */
+  const char *controller;
   double dt_max;   /* [s]; 0: no limit */
   double dt_min;   /* a smaller step is a failure [s]; 0: 1e-9 of the first limit */
   double dt_fixed; /* > 0: this step always, limits are not obeyed, nothing is halved [s] */

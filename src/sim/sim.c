@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "clock.h"
+#include "controller.h"
 #include "cpu.h"
 #include "memory.h"
 #include "sim_data.h"
@@ -181,6 +182,8 @@ void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def)
     const char *name = def->own ? def->own->name : def->method;
     if (name) snprintf(sim->method, sizeof sim->method, "%s", name);
     sim->integrator_def.method = def->method ? sim->method : NULL;
+    if (def->controller)
+      sim->integrator_def.controller = sph_controller_find(def->controller, &sim->error)->name;
     if (def->own) {
       sim->scheme = *def->own;
       sim->scheme.name = sim->method;

@@ -89,7 +89,26 @@ int sph_integrator_check(const sph_integrator_def *def, sph_error *error)
     status = sph_error_set(error, SPH_ERR_ARGUMENT,
                            "integrator: tolerance = %g, but %s has no error estimate; right is 0",
                            def->tolerance, info.name);
+  if (!status && def->controller && !info.error_control)
+    status = sph_error_set(error, SPH_ERR_ARGUMENT,
+                           "integrator: controller \"%.40s\", but %s has no error estimate; right "
+                           "is none (NULL)",
+                           def->controller, info.name);
+  if (!status && def->controller && !sph_controller_find(def->controller, error))
+    status = SPH_ERR_ARGUMENT;
   return status;
+}
+
+/* The one that was asked for; else that of the table, the integral one where it has none. */
+static sph_controller controller_of(const sph_integrator_def *def, int row)
+{
+  sph_error none = {0};
+  sph_controller chosen = *sph_controller_find("i", &none);
+  const double *beta = sph_integrator_table_control(row);
+  if (def->controller) return *sph_controller_find(def->controller, &none);
+  for (int k = 0; beta && k < 3; k++) chosen.beta[k] = beta[k];
+  chosen.limited = beta != NULL;
+  return chosen;
 }
 
 /* Fills in the defaults. */
@@ -106,6 +125,7 @@ static void define(sph_integrator *it, const sph_integrator_def *def)
   it->def = *def;
   it->def.method = it->info.name;
   it->adaptive = it->info.error_control && def->tolerance >= 0 && !(def->dt_fixed > 0);
+  it->controller = controller_of(def, it->row);
   if (def->tolerance == 0) it->def.tolerance = 1e-2;
   if (def->stage_tolerance == 0)
     it->def.stage_tolerance = it->adaptive ? 1e-2 * it->def.tolerance : 1e-8;

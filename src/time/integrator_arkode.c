@@ -48,30 +48,11 @@ static int stable(N_Vector y, sunrealtype t, sunrealtype *h, void *data)
   return status;
 }
 
-/* Ranocha et al. (2022), section 2: from the errors e of this step and of the two accepted before,
- *   h_new = h (1 + arctan(x - 1)),  x = prod_i e_i^(-beta_i/order). */
-static double control_pid(double h, double error, sph_integrator *it, const double *beta)
-{
-  sph_integrator_arkode *own = it->own;
-  const double e[3] = {fmax(error, 1e-10), own->error[0], own->error[1]};
-  double x = 1;
-  for (int i = 0; i < 3; i++) x *= pow(e[i], -beta[i] / it->info.order);
-  if (error <= 1) { /* else the step is repeated */
-    own->error[1] = own->error[0];
-    own->error[0] = e[0];
-  }
-  return h * (1 + atan(x - 1));
-}
-
-/* Integral controller: error ~ h^(p + 1) with an embedded scheme of order p = order - 1.
- * Without memory, so that a restart changes nothing. */
 static double control(double h, double error, void *data)
 {
   sph_integrator *it = data;
-  const double *beta = sph_integrator_table_control(it->row);
-  if (!(error < INFINITY)) return h / 10;
-  if (beta) return control_pid(h, error, it, beta);
-  return h * pow(fmax(error, 1e-10), -1.0 / it->info.order);
+  sph_integrator_arkode *own = it->own;
+  return sph_controller_next(&it->controller, it->info.order, h, error, &own->past);
 }
 
 static void listen(const char *text, void *data)
@@ -104,7 +85,8 @@ sph_integrator_arkode *sph_integrator_arkode_create(sph_integrator *it, SUNConte
   sph_integrator_arkode *own = it->own =
       SPH_NEW(sph_integrator_arkode, 1, "an integrator of ARKODE", it->problem.error);
   if (!own) return NULL;
-  *own = (sph_integrator_arkode){.context = context, .call = call, .fresh = 1, .error = {1, 1}};
+  *own = (sph_integrator_arkode){.context = context, .call = call, .fresh = 1};
+  sph_controller_forget(&own->past);
   return own;
 }
 
@@ -144,7 +126,7 @@ int sph_integrator_arkode_reject(sph_integrator *it)
   sph_integrator_arkode *own = it->own;
   own->fresh = 1;
   own->resume = 0;
-  own->error[0] = own->error[1] = 1;
+  sph_controller_forget(&own->past);
   it->rhs_status = 0;
   return outcome(it, own->call->reset(own->memory, it->time, it->y));
 }
@@ -193,7 +175,7 @@ int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *a, double t_s
   if (a->h < a->limit * (1 - CLOSE))
     a->bound = flag == ARK_TSTOP_RETURN ? SPH_BOUND_STOP : SPH_BOUND_ERROR;
   /* A controller that grows steps slowly should not see the one that was cut short. */
-  double short_step = sph_integrator_table_control(it->row) ? 0.9 : 0.2;
+  double short_step = sph_controller_remembers(&it->controller) ? 0.9 : 0.2;
   if (a->bound == SPH_BOUND_STOP && a->h < short_step * it->stats.dt_last)
     own->resume = it->stats.dt_last;
   return a->bound != SPH_BOUND_STOP && a->h < it->def.dt_min

@@ -15,11 +15,11 @@ typedef struct sph_integrator_arkode {
   sph_sundials_listener listener;
   sph_sundials_controller controller;
   int listening;
-  int fresh;       /* the next attempt starts anew, with the step size of its plan */
-  double error[2]; /* of the last two accepted steps, for controllers with memory; 1 at a start */
-  double resume;   /* > 0: start anew with this step, which a stop time had cut short [s] */
-  void *kind;      /* what the kind of stepper keeps, its own */
-  char text[400];  /* what ARKODE said last */
+  int fresh; /* the next attempt starts anew, with the step size of its plan */
+  sph_controller_past past;
+  double resume;  /* > 0: start anew with this step, which a stop time had cut short [s] */
+  void *kind;     /* what the kind of stepper keeps, its own */
+  char text[400]; /* what ARKODE said last */
 } sph_integrator_arkode;
 
 /* it->own, without its memory yet; NULL: recorded. */

@@ -1,6 +1,7 @@
 /* integrator_data.h -- what the loop over steps and the steppers share. */
 #ifndef SPH_INTEGRATOR_DATA_H
 #define SPH_INTEGRATOR_DATA_H
+#include "controller.h"
 #include "integrator.h"
 #include "sundials.h"
 
@@ -37,6 +38,7 @@ struct sph_integrator {
   sph_scheme user;                /* copy of def.own */
   char name[SPH_SCHEME_NAME_MAX]; /* and of its name */
   int adaptive;                   /* the step size follows the error estimate */
+  sph_controller controller;      /* how, if it does */
   const sph_stepper *stepper;
   void *own;             /* the stepper's */
   N_Vector y;            /* borrowed */
