@@ -32,6 +32,14 @@ SPH_API int sph_sim_set_vector(sph_sim *sim, double t, N_Vector y);
  * admissible (try a smaller step), < 0 after a failure (sph_sim_error tells it). */
 SPH_API int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *sim);
 
+/* Its parts, for ARKStepCreate (explicit and implicit) and MRIStepCreate (explicit: the slow part,
+ * and fast): f is their sum.  Which term belongs to which part: sph_sim_set_part; all are explicit
+ * at first.  An evaluation costs what its terms need, none at all where no term is of that part;
+ * the explicit part checks what f checks. */
+SPH_API int sph_sim_rhs_explicit(double t, N_Vector y, N_Vector ydot, void *sim);
+SPH_API int sph_sim_rhs_implicit(double t, N_Vector y, N_Vector ydot, void *sim);
+SPH_API int sph_sim_rhs_fast(double t, N_Vector y, N_Vector ydot, void *sim);
+
 /* Error weights 1/(tolerance scale) of every entry at tolerance 1: an ARKEwtFn and CVEwtFn. */
 SPH_API int sph_sim_weights(N_Vector y, N_Vector weight, void *sim);
 

@@ -52,6 +52,21 @@ int sph_sim_rhs_piece(int piece, double t, N_Vector y, N_Vector ydot, void *ctx)
   return evaluate(ctx, piece, t, y, ydot);
 }
 
+int sph_sim_rhs_explicit(double t, N_Vector y, N_Vector ydot, void *ctx)
+{
+  return evaluate(ctx, SPH_PIECE_EXPLICIT, t, y, ydot);
+}
+
+int sph_sim_rhs_implicit(double t, N_Vector y, N_Vector ydot, void *ctx)
+{
+  return evaluate(ctx, SPH_PIECE_IMPLICIT, t, y, ydot);
+}
+
+int sph_sim_rhs_fast(double t, N_Vector y, N_Vector ydot, void *ctx)
+{
+  return evaluate(ctx, SPH_PIECE_FAST, t, y, ydot);
+}
+
 int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y)
 {
   sph_evaluation e = {.sim = sim, .t = t, .part = &sim->part[SPH_WHOLE]};

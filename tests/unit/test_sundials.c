@@ -45,6 +45,40 @@ static void rates(void **state)
   sph_sim_free(sim);
 }
 
+/* Each term is in its part, and f is the sum of the parts: gravity alone is fast, dv_y/dt = -g. */
+static void parts(void **state)
+{
+  (void)state;
+  double vx = 0.3, g = 9.81;
+  sph_sim *sim = square(&vx);
+  sph_group_set_viscosity(sph_sim_group(sim, "square"), 5);
+  sph_sim_add_term(sim, sph_term_viscosity_laminar("morris"));
+  sph_sim_add_term(sim, sph_term_gravity((double[]){0, -g, 0}));
+  sph_sim_set_part(sim, "viscosity-laminar", "implicit");
+  sph_sim_set_part(sim, "gravity", "fast");
+  N_Vector y = sph_sim_vector(sim), f = N_VClone(y), sum = N_VClone(y), part = N_VClone(y);
+  const sph_group *group = sph_sim_group(sim, "square");
+  long n = sph_group_count(group);
+  const double *own = N_VGetArrayPointer(y);
+  const double *a =
+      N_VGetArrayPointer(part) + (sph_group_read(group, "velocity", 1) - own); /* dv_y/dt */
+  assert_int_equal(sph_sim_rhs(0, y, f, sim), 0);
+  assert_int_equal(sph_sim_rhs_explicit(0, y, sum, sim), 0);
+  assert_int_equal(sph_sim_rhs_implicit(0, y, part, sim), 0);
+  assert_true(N_VMaxNorm(part) > 0);
+  N_VLinearSum(1, part, 1, sum, sum);
+  assert_int_equal(sph_sim_rhs_fast(0, y, part, sim), 0);
+  for (long i = 0; i < n; i++) assert_true(a[i] == -g);
+  assert_true(N_VMaxNorm(part) == g);
+  N_VLinearSum(1, part, 1, sum, sum);
+  N_VLinearSum(1, f, -1, sum, sum);
+  assert_true(N_VMaxNorm(sum) <= 1e-13 * N_VMaxNorm(f));
+  N_VDestroy(f);
+  N_VDestroy(sum);
+  N_VDestroy(part);
+  sph_sim_free(sim);
+}
+
 /* Not admissible: > 0 and no error that sticks; a failed simulation has no vector. */
 static void refusals(void **state)
 {
@@ -117,8 +151,8 @@ static void state_from_elsewhere(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(rates), cmocka_unit_test(refusals),
-                                     cmocka_unit_test(weights),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(rates), cmocka_unit_test(parts),
+                                     cmocka_unit_test(refusals), cmocka_unit_test(weights),
                                      cmocka_unit_test(state_from_elsewhere)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
