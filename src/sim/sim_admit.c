@@ -134,7 +134,7 @@ int sph_sim_admit(sph_evaluation *e)
   for (int k = 0; k < SPH_BOUND_COUNT; k++) limit[k] = INFINITY;
   limit[SPH_BOUND_USER] = e->limit_user;
   if (sim->fresh) count(e);
-  if (part->pairs) sim->pairs += sim->pairs_now;
+  if (part->pairs && !part->only_walls) sim->pairs += sim->pairs_now;
   for (int g = 0; g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
     if (group->wall) continue;
@@ -148,7 +148,8 @@ int sph_sim_admit(sph_evaluation *e)
   /* Else they stay those of the last good evaluation. */
   if (part == &sim->part[SPH_PIECE_FAST])
     memcpy(sim->limit_fast, limit, sizeof limit);
-  else if (part != &sim->part[SPH_PIECE_IMPLICIT] && part != &sim->part[SPH_PIECE_DRIFT])
+  else if (part == &sim->part[SPH_WHOLE] || part == &sim->part[SPH_PIECE_EXPLICIT] ||
+           part == &sim->part[SPH_PIECE_KICK])
     memcpy(sim->limit, limit, sizeof limit);
   return SPH_OK;
 }

@@ -33,6 +33,7 @@ typedef struct sph_part {
   int acoustic;
   unsigned limit_terms, limit_called;
   int lists, density, eos, walls, gradients, pairs; /* phases */
+  int only_walls;                                   /* pairs: of fluids with walls alone */
   /* Registered pair terms, the fields that they read, what they add to. */
   int tiles;
   unsigned tile_fields, tile_adds;
@@ -120,6 +121,7 @@ struct sph_sim {
   int fluid_sums;      /* sums that its loops make */
   int needs_temperature;
   sph_part part[SPH_PARTS];
+  struct sph_implicit *implicit;          /* solves stages of the implicit part; NULL without one */
   fluid_constants constants;              /* of no interaction: for walls and gradients */
   double F_scale, W_scale;                /* sigma/h^(d+2), sigma/h^d */
   double scale[SPH_SETS_MAX][SPH_FIELDS]; /* error weights: physical scale of each field */
@@ -138,7 +140,7 @@ struct sph_sim {
   double limit_fast[SPH_BOUND_COUNT]; /* ... of the fast part */
   long near;        /* particles nearer than 0.1 dx to another, at the last list build */
   double pairs_now; /* directed pairs inside the support, at the last list build */
-  double pairs, seconds, rhs_seconds;
+  double pairs, seconds, rhs_seconds, solve_seconds; /* solve: implicit stages, with f in them */
   long list_builds, revision;
 };
 

@@ -208,7 +208,8 @@ static void add_group(sph_evaluation *e, int g)
   sph_sim *sim = e->sim;
   const int *order = sph_neighbors_order(sim->neighbors, g);
   sph_sim_pairs_clear(sim, g, sim->fluid_sums);
-  for (int s = 0; s < sim->groups; s++) sph_sim_interaction_add(e, g, s);
+  for (int s = 0; s < sim->groups; s++)
+    if (sim->group[s]->wall || !e->part->only_walls) sph_sim_interaction_add(e, g, s);
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (e->view[g].n > PARALLEL_MIN)
   for (long s = 0; s < e->view[g].n; s++)
     add_rates(sim, e->part, sim->group[g], &e->view[g], s, order[s]);

@@ -113,12 +113,23 @@ static void find_phases(const sph_sim *sim, sph_part *part)
   if (part->pairs) part->terms |= sim->loop_terms & (SPH_FORM_C2 | SPH_FORM_PHI | SPH_THERMAL);
   part->walls = whole || (part->pairs && meets_walls(sim, part));
   part->gradients = (part->rates & SPH_ANTUONO) != 0;
-  part->eos = part->walls || (part->rates & READ_EOS) || (part->tile_fields & TILES_READ_EOS) ||
-              part->acoustic || whole;
+  /* Of a wall that only viscosity or conduction sees, pressure and density count for nothing. */
+  part->eos = (part->walls && ((part->rates & SPH_DIFFUSION) || part->tiles)) ||
+              (part->rates & READ_EOS) || (part->tile_fields & TILES_READ_EOS) || part->acoustic ||
+              whole;
   part->density = part->pairs || part->eos;
   bodies_read(sim, part);
   part->density = part->density && sim->terms.summed;
   part->lists = part->pairs || part->density;
+}
+
+int sph_sim_parts_of(sph_sim *sim, sph_part *part, unsigned bits, unsigned called)
+{
+  *part = (sph_part){.called = called, .rates = sim->loop_terms & bits & SPH_PAIR_TERMS};
+  part->terms = part->rates;
+  int status = sph_sim_interaction_prepare(sim, part);
+  if (!status) find_phases(sim, part);
+  return status;
 }
 
 int sph_sim_parts_make(sph_sim *sim)

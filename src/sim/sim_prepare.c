@@ -8,6 +8,7 @@
 #include "gradient_pair.h"
 #include "memory.h"
 #include "sim_energy.h"
+#include "sim_implicit.h"
 #include "sim_parts.h"
 #include "sim_rhs.h"
 #include "sim_weights.h"
@@ -306,6 +307,7 @@ static int make_integrator(sph_sim *sim)
                          .rhs_piece = sph_sim_rhs_piece,
                          .limits = limits,
                          .limits_fast = limits_fast,
+                         .solve = sim->implicit ? sph_sim_implicit_solve : NULL,
                          .admissible = admissible,
                          .error = &sim->error};
   sim->integrator = sph_integrator_create(&sim->integrator_def, &problem, sim->time, sim->y,
@@ -342,6 +344,7 @@ int sph_sim_prepare(sph_sim *sim)
     sph_view view = sph_group_data_view(sim->group[g], sph_nvector_data(sim->y), NULL);
     if (!sim->group[g]->wall) sph_sim_weights_scales(sim, g, &view);
   }
+  if (!status) status = sph_sim_implicit_make(sim);
   if (!status) status = make_integrator(sim);
   sim->prepared = sim->derived = !status;
   sim->start = sim->time;
@@ -352,6 +355,7 @@ int sph_sim_prepare(sph_sim *sim)
 void sph_sim_prepare_undo(sph_sim *sim)
 {
   sph_integrator_free(sim->integrator);
+  sph_sim_implicit_free(sim);
   if (sim->y) N_VDestroy(sim->y);
   if (sim->ydot) N_VDestroy(sim->ydot);
   if (sim->frame) N_VDestroy(sim->frame);

@@ -31,11 +31,10 @@ static int phases(sph_evaluation *e)
   return status;
 }
 
-/* Part number `part` of f. */
-static int evaluate(sph_sim *sim, int part, double t, N_Vector y, N_Vector ydot)
+int sph_sim_rhs_part(sph_sim *sim, const sph_part *part, double t, N_Vector y, N_Vector ydot)
 {
   double begin = sph_clock();
-  sph_evaluation e = {.sim = sim, .t = t, .part = &sim->part[part]};
+  sph_evaluation e = {.sim = sim, .t = t, .part = part};
   views(&e, y, ydot);
   int status = phases(&e);
   sim->rhs_seconds += sph_clock() - begin;
@@ -44,12 +43,14 @@ static int evaluate(sph_sim *sim, int part, double t, N_Vector y, N_Vector ydot)
 
 int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *ctx)
 {
-  return evaluate(ctx, SPH_WHOLE, t, y, ydot);
+  sph_sim *sim = ctx;
+  return sph_sim_rhs_part(sim, &sim->part[SPH_WHOLE], t, y, ydot);
 }
 
 int sph_sim_rhs_piece(int piece, double t, N_Vector y, N_Vector ydot, void *ctx)
 {
-  return evaluate(ctx, piece, t, y, ydot);
+  sph_sim *sim = ctx;
+  return sph_sim_rhs_part(sim, &sim->part[piece], t, y, ydot);
 }
 
 int sph_sim_rhs_explicit(double t, N_Vector y, N_Vector ydot, void *ctx)

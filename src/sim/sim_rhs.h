@@ -16,6 +16,8 @@ typedef struct sph_evaluation {
 
 /* Pressure, sound speed and walls of the state (t, y), with the lists as they are. */
 int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y);
+/* Any part of f; lists, records, pressures and walls are then those of (t, y). */
+int sph_sim_rhs_part(sph_sim *sim, const sph_part *part, double t, N_Vector y, N_Vector ydot);
 /* A part of f: enum sph_piece. */
 int sph_sim_rhs_piece(int piece, double t, N_Vector y, N_Vector ydot, void *sim);
 

@@ -1,0 +1,334 @@
+#include "sim_matrix.h"
+
+#include <string.h>
+
+#include "memory.h"
+
+enum { BLOCKS = 64, ROWS = 1024 }; /* a thread's share */
+
+static const double ROUNDING = 1e-9; /* relative: what is lost in squared distances is less */
+
+/* ---- the pattern ---- */
+
+static sph_masks *masks_of(const sph_pattern *pattern, int target, int source)
+{
+  return &pattern->masks[target * pattern->groups + source];
+}
+
+static sph_pair_task pairs_of(const sph_sim *sim, int target, int source, sph_list list)
+{
+  return (sph_pair_task){.target = sim->sorted[target].record,
+                         .source = sim->sorted[source].record,
+                         .target_stride = sim->sorted[target].stride,
+                         .source_stride = sim->sorted[source].stride,
+                         .first = list.first,
+                         .runs = list.runs,
+                         .shift = sph_neighbors_shifts(sim->neighbors, NULL)};
+}
+
+/* Room for the masks of a list, and where each block's begin. */
+static int reserve_masks(sph_sim *sim, sph_masks *masks, sph_list list)
+{
+  int status = SPH_OK;
+  if (list.blocks + 1 > masks->room_first) {
+    status = sph_memory_grow((void **)&masks->first, 0, (size_t)(list.blocks + 1), sizeof(long),
+                             "masks of a matrix", &sim->error);
+    if (!status) masks->room_first = list.blocks + 1;
+  }
+  if (status) return status;
+  masks->first[0] = 0;
+  for (long b = 0; b < list.blocks; b++) {
+    masks->first[b + 1] = masks->first[b];
+    for (long r = list.first[b]; r < list.first[b + 1]; r++)
+      masks->first[b + 1] += list.runs[r].count;
+  }
+  long count = masks->first[list.blocks];
+  if (count <= masks->room) return SPH_OK;
+  count += count / 8;
+  status =
+      sph_memory_grow((void **)&masks->mask, 0, (size_t)count, 1, "masks of a matrix", &sim->error);
+  if (!status) masks->room = count;
+  return status;
+}
+
+static int make_masks(const sph_evaluation *e, const sph_pattern *pattern, int target, int source)
+{
+  sph_sim *sim = e->sim;
+  const sph_list list = sph_neighbors_list(sim->neighbors, target, source);
+  const sph_pair_task pairs = pairs_of(sim, target, source, list);
+  sph_masks *masks = masks_of(pattern, target, source);
+  const double reach = sim->H + sim->skin;
+  int status = reserve_masks(sim, masks, list);
+  if (status) return status;
+  const sph_mask_task task = {.pairs = &pairs,
+                              .targets = e->view[target].n,
+                              .same = target == source,
+                              .reach2 = reach * reach * (1 + ROUNDING),
+                              .first = masks->first,
+                              .mask = masks->mask};
+  sph_mask_function *loop = sph_mask_loop(sim->isa, sim->dim);
+  long chunks = (list.blocks + BLOCKS - 1) / BLOCKS;
+#pragma omp parallel for num_threads(sim->threads) schedule(dynamic) if (chunks > 2)
+  for (long c = 0; c < chunks; c++)
+    loop(&task, c * BLOCKS, c + 1 < chunks ? (c + 1) * BLOCKS : list.blocks);
+  return SPH_OK;
+}
+
+/* Calls for all neighbours of the targets of blocks [begin, end), in the order of the masks. */
+typedef void visit(const sph_pattern *pattern, long row, int column);
+
+static void count(const sph_pattern *pattern, long row, int column)
+{
+  (void)column;
+  pattern->start[row + 1]++;
+}
+
+static void take(const sph_pattern *pattern, long row, int column)
+{
+  pattern->column[pattern->start[row] + pattern->filled[row]++] = column;
+}
+
+static inline __attribute__((always_inline)) void
+walk(const sph_sim *sim, const sph_pattern *pattern, int target, int source, visit *each)
+{
+  const sph_list list = sph_neighbors_list(sim->neighbors, target, source);
+  const sph_masks *masks = masks_of(pattern, target, source);
+  const int lanes = sph_cpu_lanes(sim->isa);
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (list.blocks > BLOCKS)
+  for (long b = 0; b < list.blocks; b++) {
+    const unsigned char *mask = masks->mask + masks->first[b];
+    for (long r = list.first[b]; r < list.first[b + 1]; r++)
+      for (long n = 0; n < (long)list.runs[r].count; n++)
+        for (unsigned bits = *mask++; bits; bits &= bits - 1)
+          each(pattern, pattern->base[target] + b * lanes + __builtin_ctz(bits),
+               (int)(pattern->base[source] + list.runs[r].start + n));
+  }
+}
+
+static int reserve_pattern(sph_sim *sim, sph_pattern *pattern)
+{
+  sph_error *error = &sim->error;
+  long rows = 0;
+  pattern->groups = sim->groups;
+  for (int g = 0; g < sim->groups; g++) {
+    pattern->base[g] = rows;
+    if (!sim->group[g]->wall) rows += sim->group[g]->n;
+  }
+  pattern->rows = rows;
+  if (!pattern->masks)
+    pattern->masks = SPH_NEW(sph_masks, sim->groups * sim->groups, "masks of a matrix", error);
+  if (!pattern->masks) return SPH_ERR_MEMORY;
+  if (pattern->start && rows <= pattern->room_rows) return SPH_OK;
+  if (sph_memory_grow((void **)&pattern->start, 0, (size_t)rows + 1, sizeof(long),
+                      "rows of a matrix", error) ||
+      sph_memory_grow((void **)&pattern->filled, 0, (size_t)rows, sizeof(int), "rows of a matrix",
+                      error))
+    return SPH_ERR_MEMORY;
+  pattern->room_rows = rows;
+  return SPH_OK;
+}
+
+static int make_columns(sph_sim *sim, sph_pattern *pattern)
+{
+  const long rows = pattern->rows;
+  memset(pattern->start, 0, (size_t)(rows + 1) * sizeof(long));
+  memset(pattern->filled, 0, (size_t)rows * sizeof(int));
+  for (int g = 0; g < sim->groups; g++)
+    for (int s = 0; s < sim->groups; s++)
+      if (!sim->group[g]->wall && !sim->group[s]->wall) walk(sim, pattern, g, s, count);
+  for (long i = 0; i < rows; i++) pattern->start[i + 1] += pattern->start[i];
+  long entries = pattern->start[rows];
+  if (entries > pattern->room) {
+    entries += entries / 8;
+    if (sph_memory_grow((void **)&pattern->column, 0, (size_t)entries, sizeof(int),
+                        "columns of a matrix", &sim->error))
+      return SPH_ERR_MEMORY;
+    pattern->room = entries;
+  }
+  for (int g = 0; g < sim->groups; g++)
+    for (int s = 0; s < sim->groups; s++)
+      if (!sim->group[g]->wall && !sim->group[s]->wall) walk(sim, pattern, g, s, take);
+  return SPH_OK;
+}
+
+int sph_sim_matrix_pattern(sph_evaluation *e, sph_pattern *pattern)
+{
+  sph_sim *sim = e->sim;
+  if (pattern->number && pattern->builds == sim->list_builds) return SPH_OK;
+  int status = reserve_pattern(sim, pattern);
+  for (int g = 0; !status && g < sim->groups; g++)
+    for (int s = 0; !status && s < sim->groups; s++)
+      if (!sim->group[g]->wall && !sim->group[s]->wall) status = make_masks(e, pattern, g, s);
+  if (!status) status = make_columns(sim, pattern);
+  if (status) return status;
+  pattern->builds = sim->list_builds;
+  pattern->number++;
+  return SPH_OK;
+}
+
+/* ---- the matrix ---- */
+
+/* Rows of one particle's components: its own other ones, then those of its neighbours. */
+static void expand(const sph_pattern *pattern, sph_csr *A, int d, long i)
+{
+  const long length = pattern->start[i + 1] - pattern->start[i], row = d * length + d - 1;
+  const int *column = pattern->column + pattern->start[i];
+  for (int a = 0; a < d; a++) {
+    long at = A->start[i * d + a] = d * d * pattern->start[i] + i * d * (d - 1) + a * row;
+    for (int b = 0; b < d; b++)
+      if (b != a) A->column[at++] = (int)(i * d + b);
+    for (long n = 0; n < length; n++)
+      for (int b = 0; b < d; b++) A->column[at++] = column[n] * d + b;
+  }
+}
+
+int sph_sim_matrix_shape(sph_sim *sim, const sph_pattern *pattern, sph_matrix *matrix)
+{
+  if (matrix->pattern == pattern->number) return SPH_OK;
+  const int d = matrix->components, sums = d * (d + 1) / 2;
+  const long n = pattern->rows, entries = d * d * pattern->start[n] + n * d * (d - 1);
+  int status = sph_csr_reserve(&matrix->A, n * d,
+                               entries <= matrix->A.room_entries ? entries : entries + entries / 8,
+                               &sim->error);
+  for (int s = 0; !status && s < sums && n > matrix->room; s++)
+    status = sph_memory_grow((void **)&matrix->wall[s], 0, (size_t)n, sizeof(double),
+                             "a matrix beside walls", &sim->error);
+  if (status) return status;
+  if (n > matrix->room) matrix->room = n;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > ROWS)
+  for (long i = 0; i < n; i++) expand(pattern, &matrix->A, d, i);
+  matrix->A.n = n * d;
+  matrix->A.start[n * d] = entries;
+  matrix->pattern = pattern->number;
+  return SPH_OK;
+}
+
+static matrix_constants constants_of(const sph_evaluation *e, int target, int source, double gamma,
+                                     int coupling)
+{
+  const sph_sim *sim = e->sim;
+  const sph_group *i = sim->group[target], *j = sim->group[source];
+  matrix_constants k = {.fluid = sph_sim_interaction_constants(sim, e->part, i, j),
+                        .vector = gamma * sim->F_scale,
+                        .regular = coupling != SPH_COUPLING_DIFFUSION};
+  if (coupling == SPH_COUPLING_VISCOSITY && (k.fluid.terms & SPH_MORRIS))
+    k.scalar = k.vector * k.fluid.laminar;
+  if (coupling == SPH_COUPLING_CONDUCTION && (k.fluid.terms & SPH_CONDUCTION))
+    k.scalar = k.vector * k.fluid.conduction;
+  if (coupling == SPH_COUPLING_DIFFUSION && (k.fluid.terms & SPH_DIFFUSION))
+    k.scalar = k.vector * 2 * sim->terms.delta * sim->h * i->eos.c0;
+  return k;
+}
+
+static void fill_fluid(const sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
+                       int target, int source, const matrix_constants *constants)
+{
+  const sph_sim *sim = e->sim;
+  const sph_list list = sph_neighbors_list(sim->neighbors, target, source);
+  const sph_masks *masks = masks_of(pattern, target, source);
+  const sph_matrix_loops *loops = sph_matrix_loop(sim->isa, sim->kernel_number, sim->dim);
+  sph_matrix_function *loop = matrix->vector ? loops->vector : loops->scalar;
+  sph_pair_task pairs = pairs_of(sim, target, source, list);
+  pairs.constants = constants;
+  const long row = pattern->base[target] * matrix->components;
+  const sph_matrix_task task = {.pairs = &pairs,
+                                .first = masks->first,
+                                .mask = masks->mask,
+                                .targets = e->view[target].n,
+                                .start = matrix->A.start + row,
+                                .diagonal = matrix->A.diagonal + row,
+                                .filled = pattern->filled + pattern->base[target],
+                                .value = matrix->A.value};
+  long chunks = (list.blocks + BLOCKS - 1) / BLOCKS;
+#pragma omp parallel for num_threads(sim->threads) schedule(dynamic) if (chunks > 2)
+  for (long c = 0; c < chunks; c++)
+    loop(&task, c * BLOCKS, c + 1 < chunks ? (c + 1) * BLOCKS : list.blocks);
+}
+
+/* Adds what walls do to the diagonal blocks of a group: its sums are those of walls alone. */
+static void take_walls(const sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
+                       int target, double factor)
+{
+  const sph_sim *sim = e->sim;
+  const int d = matrix->components;
+  const long base = pattern->base[target];
+  double *const *sum = sim->sorted[target].sum;
+  sph_csr *A = &matrix->A;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (e->view[target].n > ROWS)
+  for (long s = 0; s < e->view[target].n; s++) {
+    const long i = base + s;
+    int k = 0;
+    for (int a = 0; a < d; a++)
+      for (int b = a; b < d; b++, k++) {
+        const double value = matrix->wall[k][i] = factor * sum[k][s];
+        if (a == b) A->diagonal[i * d + a] += value;
+        if (a == b) continue;
+        A->value[A->start[i * d + a] + b - 1] += value;
+        A->value[A->start[i * d + b] + a] += value;
+      }
+  }
+}
+
+static void fill_walls(const sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
+                       int target, double gamma, int coupling)
+{
+  sph_sim *sim = e->sim;
+  const sph_matrix_loops *loops = sph_matrix_loop(sim->isa, sim->kernel_number, sim->dim);
+  const int d = matrix->components;
+  sph_sim_pairs_clear(sim, target, d * (d + 1) / 2);
+  for (int w = 0; w < sim->groups; w++) {
+    if (!sim->group[w]->wall) continue;
+    const matrix_constants k = constants_of(e, target, w, gamma, coupling);
+    if (matrix->vector ? (k.fluid.terms & SPH_VISCOUS) != 0 : k.scalar > 0)
+      sph_sim_pairs_loop(sim, matrix->vector ? loops->wall_vector : loops->wall_scalar, target, w,
+                         &k);
+  }
+  take_walls(e, pattern, matrix, target, coupling == SPH_COUPLING_DIFFUSION ? 1 : 2);
+}
+
+/* The diagonal is M; a vector's own other components have nothing yet. */
+static void start(const sph_sim *sim, const sph_pattern *pattern, sph_matrix *matrix)
+{
+  const int d = matrix->components;
+  sph_csr *A = &matrix->A;
+  memcpy(A->diagonal, A->floor, (size_t)A->n * sizeof *A->diagonal);
+  memset(pattern->filled, 0, (size_t)pattern->rows * sizeof *pattern->filled);
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (A->n > ROWS)
+  for (long row = 0; row < A->n; row++)
+    for (int b = 0; b < d - 1; b++) A->value[A->start[row] + b] = 0;
+}
+
+void sph_sim_matrix_fill(sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
+                         double gamma, int coupling)
+{
+  const sph_sim *sim = e->sim;
+  start(sim, pattern, matrix);
+  for (int g = 0; g < sim->groups; g++) {
+    if (sim->group[g]->wall) continue;
+    for (int s = 0; s < sim->groups; s++) {
+      if (sim->group[s]->wall) continue;
+      const matrix_constants k = constants_of(e, g, s, gamma, coupling);
+      fill_fluid(e, pattern, matrix, g, s, &k);
+    }
+    fill_walls(e, pattern, matrix, g, gamma, coupling);
+  }
+  matrix->values++;
+}
+
+void sph_sim_matrix_pattern_free(sph_pattern *pattern)
+{
+  for (int k = 0; pattern->masks && k < pattern->groups * pattern->groups; k++) {
+    sph_memory_free(pattern->masks[k].first);
+    sph_memory_free(pattern->masks[k].mask);
+  }
+  sph_memory_free(pattern->masks);
+  sph_memory_free(pattern->start);
+  sph_memory_free(pattern->column);
+  sph_memory_free(pattern->filled);
+}
+
+void sph_sim_matrix_free(sph_matrix *matrix)
+{
+  for (int s = 0; s < SPH_MATRIX_WALL_SUMS; s++) sph_memory_free(matrix->wall[s]);
+  sph_csr_free(&matrix->A);
+}

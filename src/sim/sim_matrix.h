@@ -1,0 +1,57 @@
+/* sim_matrix.h -- matrices of implicit stages: (M + gamma L) x = b over all fluid particles in
+ * sorted order, group by group, or over the components of their velocities. */
+#ifndef SPH_SIM_MATRIX_H
+#define SPH_SIM_MATRIX_H
+#include "csr.h"
+#include "matrix_loops.h"
+#include "sim_rhs.h"
+
+/* Neighbours of an interaction by bits (mask_loops.h). */
+typedef struct sph_masks {
+  long *first;         /* [blocks + 1] */
+  unsigned char *mask; /* [first[blocks]] */
+  long room_first, room;
+} sph_masks;
+
+/* Who is coupled to whom: all pairs nearer than H + skin at the last list build, so that it lasts
+ * as long as the lists. */
+typedef struct sph_pattern {
+  int groups;
+  long builds;             /* of the lists that it belongs to */
+  long number;             /* rises with each new pattern */
+  long rows;               /* fluid particles */
+  long base[SPH_SETS_MAX]; /* row of a group's first sorted particle */
+  long *start;             /* [rows + 1] of the couplings of each */
+  int *column;             /* [start[rows]] */
+  int *filled;             /* [rows] scratch */
+  sph_masks *masks;        /* [groups * groups] */
+  long room_rows, room;
+} sph_pattern;
+
+/* Which coupling a matrix holds. */
+enum sph_coupling { SPH_COUPLING_VISCOSITY, SPH_COUPLING_CONDUCTION, SPH_COUPLING_DIFFUSION };
+
+typedef struct sph_matrix {
+  int vector;                         /* of velocities whose components are coupled */
+  int components;                     /* rows of a particle: 1, or dim of a vector */
+  sph_csr A;                          /* its floor is M, to be set before it is filled */
+  double *wall[SPH_MATRIX_WALL_SUMS]; /* [rows of the pattern] what walls add to the diagonal: one
+                                         array, or the upper triangle of dim x dim by rows */
+  long room;                          /* of wall */
+  long pattern, values;               /* of the pattern that A has; rises whenever A is filled */
+} sph_matrix;
+
+/* Makes the pattern that of the present lists, if it is not; records hold positions. */
+int sph_sim_matrix_pattern(sph_evaluation *e, sph_pattern *pattern);
+/* Gives a matrix that pattern; then A.floor has room. */
+int sph_sim_matrix_shape(sph_sim *sim, const sph_pattern *pattern, sph_matrix *matrix);
+/* Fills it, given its floor, with gamma times the coupling of the terms of e->part; records are
+ * packed.  No-slip or isothermal walls count as if what viscosity or conduction sees of them were
+ * 2 x_wall - x_i: that makes 2 gamma sum_w k_iw on the diagonal. */
+void sph_sim_matrix_fill(sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
+                         double gamma, int coupling);
+
+void sph_sim_matrix_pattern_free(sph_pattern *pattern);
+void sph_sim_matrix_free(sph_matrix *matrix);
+
+#endif

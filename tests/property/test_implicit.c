@@ -1,0 +1,148 @@
+/* Stages of implicit terms: z = known + gamma f_I(t, z) holds with the f_I that explicit schemes
+ * evaluate, for each term alone and for all of them, with walls, several fluids, every energy. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "scene.h"
+#include "sim_data.h"
+#include "sim_implicit.h"
+#include "sim_rhs.h"
+
+/* Terms of a scene, and which are implicit. */
+enum { MORRIS = 1, MCG = 2, ARTIFICIAL = 4, CONDUCTION = 8, MOLTENI = 16, ANTUONO = 32 };
+
+static void choose(oracle *o, unsigned terms, int k)
+{
+  o->continuity = o->pressure = ORACLE_C2;
+  if (terms & MORRIS) o->laminar = ORACLE_MORRIS;
+  if (terms & MCG) o->laminar = ORACLE_MCG;
+  if (terms & ARTIFICIAL) o->alpha = 0.5L, o->beta = k % 2;
+  if (terms & CONDUCTION) o->conduction = 1;
+  if (terms & MOLTENI) o->diffusion = ORACLE_MOLTENI, o->delta = 0.1L;
+  if (terms & ANTUONO) o->diffusion = ORACLE_ANTUONO, o->delta = 0.1L;
+}
+
+static void make_implicit(sph_sim *sim, unsigned terms)
+{
+  if (terms & (MORRIS | MCG)) sph_sim_set_part(sim, "viscosity-laminar", "implicit");
+  if (terms & ARTIFICIAL) sph_sim_set_part(sim, "viscosity-artificial", "implicit");
+  if (terms & CONDUCTION) sph_sim_set_part(sim, "conduction", "implicit");
+  if (terms & (MOLTENI | ANTUONO)) sph_sim_set_part(sim, "delta", "implicit");
+}
+
+/* Largest |z - known - gamma f_I(z)| of a segment against its largest |z - known|. */
+static void check_stage(sph_sim *sim, const sph_stage *stage, double tolerance, int k)
+{
+  N_Vector f = N_VClone(stage->z);
+  assert_int_equal(sph_sim_rhs_piece(SPH_PIECE_IMPLICIT, stage->t, stage->z, f, sim), 0);
+  const double *z = N_VGetArrayPointer(stage->z), *known = N_VGetArrayPointer(stage->known);
+  const double *rate = N_VGetArrayPointer(f);
+  for (int q = 0; q < sim->layout.segments; q++) {
+    const sph_segment *segment = &sim->layout.segment[q];
+    double error = 0, size = 0;
+    for (long i = segment->offset; i < segment->offset + segment->n; i++) {
+      double miss = fabs(z[i] - known[i] - stage->gamma * rate[i]);
+      if (!(miss <= error)) error = miss;
+      size = fmax(size, fmax(fabs(z[i] - known[i]), 1e-3 * fabs(z[i])));
+    }
+    if (!(error <= tolerance * size))
+      fail_msg("scene %d, segment %d (role %d): stage missed by %g of %g", k, q, segment->role,
+               error, size);
+  }
+  N_VDestroy(f);
+}
+
+/* Solves a stage whose gamma is `stiff` times the explicit limit. */
+static void solve(sph_sim *sim, double stiff, double gamma, int k)
+{
+  N_Vector y = sph_sim_vector(sim);
+  if (!y) fail_msg("scene %d: %s", k, sph_sim_error(sim));
+  N_Vector known = N_VClone(y), z = N_VClone(y);
+  N_VScale(1, y, known);
+  N_VScale(1, y, z);
+  /* Positions and velocities of the guess are somewhere else: its positions do not count. */
+  for (long i = 0; i < sim->layout.length; i++)
+    N_VGetArrayPointer(z)[i] *= 1 + 1e-3 * sin(1.0 + (double)i);
+  sph_stage stage = {.t = 0, .gamma = stiff * gamma, .tolerance = 1e-12, .known = known, .z = z};
+  int status = sph_sim_implicit_solve(&stage, sim);
+  if (status) fail_msg("scene %d: %d %s %s", k, status, sph_sim_error(sim), sim->retry);
+  check_stage(sim, &stage, 1e-9, k);
+  assert_true(stage.iterations > 0);
+  N_VDestroy(known);
+  N_VDestroy(z);
+}
+
+static void check(unsigned terms, unsigned implicit, int k, int thermal, double stiff)
+{
+  scene_def def = {.dim = 1 + k % 3,
+                   .kernel = k % ORACLE_KERNELS,
+                   .fluids = 1 + k / 2 % 2,
+                   .thermal = thermal,
+                   .laminar = 1,
+                   .walls = k / 3 % 3,
+                   .no_slip = 1,
+                   .random = 0,
+                   .seed = (unsigned long)(300 + k)};
+  def.n = def.dim == 1 ? 40 : def.dim == 2 ? 14 : 9;
+  for (int d = 0; d < def.dim; d++) def.periodic[d] = !def.walls || d < def.dim - 1;
+  scene s;
+  scene_make(&s, &def);
+  choose(&s.o, terms, k);
+  if (!thermal && (terms & CONDUCTION)) s.o.energy = k % 2 ? ORACLE_U : ORACLE_TEMPERATURE;
+  if (thermal) s.o.energy = (enum oracle_energy)(k % 5);
+  sph_sim *sim = scene_sim(&s, (scene_options){0});
+  make_implicit(sim, implicit & terms);
+  double h = (double)s.o.h;
+  solve(sim, stiff, 0.125 * h * h * 1000 / 3, k);
+  sph_sim_free(sim);
+  scene_free(&s);
+}
+
+static void morris(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 12; k++) check(MORRIS, MORRIS, k, 0, 100);
+}
+static void mcg(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 12; k++) check(MCG, MCG, k, 0, 100);
+}
+static void conduction(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 12; k++) check(CONDUCTION, CONDUCTION, k, k % 2, 1);
+}
+static void artificial(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 12; k++) check(ARTIFICIAL, ARTIFICIAL, k, k % 2, 1);
+}
+static void diffusion(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 12; k++) check(k % 2 ? MOLTENI : ANTUONO, MOLTENI | ANTUONO, k, 0, 0.02);
+}
+static void everything(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 24; k++)
+    check((k % 2 ? MORRIS : MCG) | ARTIFICIAL | CONDUCTION | (k % 4 == 3 ? 0 : MOLTENI), ~0u, k,
+          k % 4 == 3, 0.02);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(morris),     cmocka_unit_test(mcg),       cmocka_unit_test(conduction),
+      cmocka_unit_test(artificial), cmocka_unit_test(diffusion), cmocka_unit_test(everything),
+  };
+  return cmocka_run_group_tests_name("implicit", tests, NULL, NULL);
+}
