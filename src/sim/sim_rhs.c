@@ -55,17 +55,17 @@ int sph_sim_rhs_piece(int piece, double t, N_Vector y, N_Vector ydot, void *ctx)
 
 int sph_sim_rhs_explicit(double t, N_Vector y, N_Vector ydot, void *ctx)
 {
-  return evaluate(ctx, SPH_PIECE_EXPLICIT, t, y, ydot);
+  return sph_sim_rhs_piece(SPH_PIECE_EXPLICIT, t, y, ydot, ctx);
 }
 
 int sph_sim_rhs_implicit(double t, N_Vector y, N_Vector ydot, void *ctx)
 {
-  return evaluate(ctx, SPH_PIECE_IMPLICIT, t, y, ydot);
+  return sph_sim_rhs_piece(SPH_PIECE_IMPLICIT, t, y, ydot, ctx);
 }
 
 int sph_sim_rhs_fast(double t, N_Vector y, N_Vector ydot, void *ctx)
 {
-  return evaluate(ctx, SPH_PIECE_FAST, t, y, ydot);
+  return sph_sim_rhs_piece(SPH_PIECE_FAST, t, y, ydot, ctx);
 }
 
 int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y)
