@@ -19,6 +19,7 @@
 
 enum {
   READ_EOS = SPH_PRESSURE_FORCE | SPH_ARTIFICIAL | SPH_SIGNAL | SPH_CONDUCTIVITY | SPH_CONDUCTION,
+  WALLS_READ_EOS = SPH_CONTINUITY | SPH_DIFFUSION, /* mass, phi, density of wall particles */
   TILES_READ_EOS = 1 << SPH_TILE_PRESSURE | 1 << SPH_TILE_SOUND_SPEED | 1 << SPH_TILE_ENERGY |
                    1 << SPH_TILE_TEMPERATURE
 };
@@ -114,7 +115,7 @@ static void find_phases(const sph_sim *sim, sph_part *part)
   part->walls = whole || (part->pairs && meets_walls(sim, part));
   part->gradients = (part->rates & SPH_ANTUONO) != 0;
   /* Of a wall that only viscosity or conduction sees, pressure and density count for nothing. */
-  part->eos = (part->walls && ((part->rates & SPH_DIFFUSION) || part->tiles)) ||
+  part->eos = (part->walls && ((part->rates & WALLS_READ_EOS) || part->tiles)) ||
               (part->rates & READ_EOS) || (part->tile_fields & TILES_READ_EOS) || part->acoustic ||
               whole;
   part->density = part->pairs || part->eos;
