@@ -11,6 +11,7 @@
 #include "memory.h"
 #include "sim_data.h"
 #include "sim_event.h"
+#include "sim_implicit.h"
 #include "sim_parts.h"
 #include "sim_prepare.h"
 #include "sim_rhs.h"
@@ -368,6 +369,27 @@ int sph_sim_set_vector(sph_sim *sim, double t, N_Vector y)
   sim->time = t;
   sph_sim_changed(sim);
   return SPH_OK;
+}
+
+int sph_sim_solve(sph_sim *sim, double t, double gamma, double tolerance, N_Vector known,
+                  N_Vector z)
+{
+  int status = sph_sim_prepare(sim);
+  if (status) return status;
+  if (!known || !z || known == z || !(gamma > 0 && tolerance > 0))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "sph_sim_solve: gamma = %g s, tolerance = %g, known %s, z %s; right is "
+                        "> 0, > 0, two vectors",
+                        gamma, tolerance, known ? "given" : "NULL",
+                        !z           ? "NULL"
+                        : known == z ? "the same"
+                                     : "given");
+  if (!sim->implicit) { /* f_implicit = 0 */
+    N_VScale(1, known, z);
+    return SPH_OK;
+  }
+  sph_stage stage = {.t = t, .gamma = gamma, .tolerance = tolerance, .known = known, .z = z};
+  return sph_sim_implicit_solve(&stage, sim);
 }
 
 N_Vector sph_sim_vector(sph_sim *sim) { return sph_sim_prepare(sim) == SPH_OK ? sim->y : NULL; }

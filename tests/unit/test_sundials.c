@@ -79,6 +79,38 @@ static void parts(void **state)
   sph_sim_free(sim);
 }
 
+/* The stage that was solved for is met by the implicit part; without one z = known. */
+static void stages(void **state)
+{
+  (void)state;
+  double vx = 0.3, gamma = 0.05;
+  sph_sim *sim = square(&vx);
+  sph_group_set_viscosity(sph_sim_group(sim, "square"), 50);
+  sph_sim_add_term(sim, sph_term_viscosity_laminar("mcg"));
+  sph_sim_set_part(sim, "viscosity-laminar", "implicit");
+  N_Vector known = sph_sim_vector(sim), z = N_VClone(known), f = N_VClone(known);
+  N_VScale(1, known, z);
+  assert_int_equal(sph_sim_solve(sim, 0, gamma, 1e-10, known, z), 0);
+  assert_int_equal(sph_sim_rhs_implicit(0, z, f, sim), 0);
+  N_VLinearSum(1, z, -gamma, f, f);
+  N_VLinearSum(1, f, -1, known, f); /* z - gamma f(z) - known */
+  N_VLinearSum(1, z, -1, known, z); /* and that is not zero everywhere */
+  assert_true(N_VMaxNorm(z) > 0.01 && N_VMaxNorm(f) < 1e-8);
+  assert_true(sph_sim_solve(sim, 0, -gamma, 1e-10, known, z) < 0);
+  assert_non_null(strstr(sph_sim_error(sim), "gamma = -0.05 s"));
+  N_VDestroy(z);
+  N_VDestroy(f);
+  sph_sim_free(sim);
+  sim = square(&vx);
+  known = sph_sim_vector(sim), z = N_VClone(known);
+  assert_int_equal(sph_sim_solve(sim, 0, gamma, 1e-10, known, z), 0);
+  N_VLinearSum(1, z, -1, known, z);
+  assert_true(N_VMaxNorm(z) == 0);
+  assert_true(sph_sim_solve(sim, 0, gamma, 1e-10, known, NULL) < 0);
+  N_VDestroy(z);
+  sph_sim_free(sim);
+}
+
 /* Not admissible: > 0 and no error that sticks; a failed simulation has no vector. */
 static void refusals(void **state)
 {
@@ -151,8 +183,11 @@ static void state_from_elsewhere(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(rates), cmocka_unit_test(parts),
-                                     cmocka_unit_test(refusals), cmocka_unit_test(weights),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(rates),
+                                     cmocka_unit_test(parts),
+                                     cmocka_unit_test(stages),
+                                     cmocka_unit_test(refusals),
+                                     cmocka_unit_test(weights),
                                      cmocka_unit_test(state_from_elsewhere)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
