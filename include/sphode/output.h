@@ -89,6 +89,11 @@ SPH_API int sph_monitor_value(const sph_monitor *monitor, struct sph_sim *sim, d
 SPH_API sph_output sph_output_series(const char *directory, double interval,
                                      const sph_monitor *monitors, int n); /* copied */
 
+/* ---- events ----------------------------------------------------------------------------------
+ * directory/events.csv: time, step, event (its name), value: a row for each moment of each event
+ * (sphode/event.h), in the file before the run goes on. */
+SPH_API sph_output sph_output_events(const char *directory);
+
 /* ---- summary ---------------------------------------------------------------------------------*/
 /* A measured distance from something outside the code. */
 typedef struct sph_comparison {

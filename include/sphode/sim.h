@@ -53,6 +53,11 @@ SPH_API void sph_sim_set_part(sph_sim *sim, const char *term, const char *part);
  * event: gravity (of all that were added), harmonic, viscosity-artificial, viscosity-signal,
  * conductivity-artificial, xsph, delta (its model stays).  The integrator starts anew. */
 SPH_API void sph_sim_change_term(sph_sim *sim, sph_term term);
+/* Scale of the error weights of a field that a fluid integrates, in its unit: a step's error is
+ * tolerance times it, where the physical scales of sph_sim_def.speed do not fit; the other fields
+ * keep theirs.  Before the run; of a scalar: after its term was added.  group NULL: all fluids. */
+SPH_API void sph_sim_set_scale(sph_sim *sim, const sph_group *group, const char *field,
+                               double scale);
 SPH_API void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def); /* copied */
 SPH_API void sph_sim_add_output(sph_sim *sim, sph_output output);
 /* Called after every accepted step; a return != 0 stops the run with SPH_ERR_STOPPED, outputs

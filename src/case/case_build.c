@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "case_build.h"
+#include "case_event.h"
 #include "case_material.h"
 #include "case_schema.h"
 #include "memory.h"
@@ -13,6 +15,7 @@ typedef struct builder {
   const sph_case *c;
   sph_sim *sim;
   sph_error *error;
+  sph_case_motions motions;
 } builder;
 
 #define get_text sph_case_reader_text
@@ -37,23 +40,7 @@ static int axis_of(const char *word) { return word[0] - 'x'; }
 
 /* ---- groups */
 
-typedef struct steady {
-  double velocity[3];
-  int slide;
-} steady;
-
-static void steady_motion(void *ctx, double t, double displacement[3], double velocity[3],
-                          double acceleration[3])
-{
-  const steady *s = ctx;
-  for (int d = 0; d < 3; d++) {
-    displacement[d] = s->slide ? 0 : s->velocity[d] * t;
-    velocity[d] = s->velocity[d];
-    acceleration[d] = 0;
-  }
-}
-
-static int set_boundary(const builder *b, sph_group *group, const sph_case_node *map)
+static int set_boundary(builder *b, sph_group *group, const sph_case_node *map)
 {
   const sph_case_node *motion = child_of(map, "motion");
   sph_boundary boundary = sph_boundary_adami();
@@ -62,13 +49,13 @@ static int set_boundary(const builder *b, sph_group *group, const sph_case_node 
   boundary.tension = get_number(map, "tension", 0) != 0;
   boundary.temperature = get_number(map, "temperature", 0);
   if (motion) {
-    steady *s = SPH_NEW(steady, 1, "the motion of a wall", b->error);
+    sph_case_motion *s = SPH_NEW(sph_case_motion, 1, "the motion of a wall", b->error);
     if (!s) return SPH_ERR_MEMORY;
     get_vector(motion, "velocity", s->velocity);
     s->slide = get_number(motion, "slide", 0) != 0;
-    boundary.motion = steady_motion;
-    boundary.ctx = s;
-    boundary.free = sph_memory_free;
+    sph_case_motion_set(&boundary, s);
+    b->motions.of[b->motions.n].group = sph_group_name(group);
+    b->motions.of[b->motions.n++].motion = s;
   }
   sph_group_set_boundary(group, boundary);
   return told(b, map);
@@ -98,7 +85,18 @@ static int add_shape(const builder *b, sph_group *group, const sph_case_node *sh
   return told(b, shape);
 }
 
-static int build_group(const builder *b, const sph_case_node *map)
+static int set_scales(const builder *b, const sph_group *group, const sph_case_node *map)
+{
+  const sph_case_node *scales = child_of(map, "scales"), *one = scales ? scales->first : NULL;
+  int status = SPH_OK;
+  for (; one && !status; one = one->next) {
+    sph_sim_set_scale(b->sim, group, one->key, one->number);
+    status = told(b, one);
+  }
+  return status;
+}
+
+static int build_group(builder *b, const sph_case_node *map)
 {
   const sph_case_node *eos = child_of(map, "eos"), *material = child_of(map, "material");
   const sph_case_node *boundary = child_of(map, "boundary");
@@ -121,6 +119,7 @@ static int build_group(const builder *b, const sph_case_node *map)
     status = told(b, map);
   }
   if (!status && wall) status = set_boundary(b, group, boundary);
+  if (!status) status = set_scales(b, group, map);
   if (!status && sph_group_count(group) == 0) status = fail(b, map, "the group has no particles");
   return status;
 }
@@ -235,7 +234,7 @@ static int add_heating(const builder *b, const sph_case_node *map)
   return told(b, map);
 }
 
-static sph_term term_of(const sph_case_node *map)
+sph_term sph_case_build_term(const sph_case_node *map)
 {
   const char *name = map->key, *form = get_text(map, "form", NULL);
   double alpha = get_number(map, "alpha", 0), g[3];
@@ -267,7 +266,7 @@ static int add_term(const builder *b, const sph_case_node *map)
   if (!strcmp(map->key, "heat-source"))
     status = add_heating(b, map);
   else {
-    sph_sim_add_term(b->sim, term_of(map));
+    sph_sim_add_term(b->sim, sph_case_build_term(map));
     status = told(b, map);
   }
   if (status || !child_of(map, "part")) return status;
@@ -282,6 +281,7 @@ static sph_integrator_def integrator_of(const sph_case_node *map)
       .method = get_text(map, "method", NULL),
       .cfl = get_number(map, "cfl", 0),
       .tolerance = control ? get_number(map, "tolerance", 0) : -1,
+      .controller = get_text(map, "controller", NULL),
       .stage_tolerance = get_number(map, "stage_tolerance", 0),
       .dt_max = get_number(map, "dt_max", 0),
       .dt_min = get_number(map, "dt_min", 0),
@@ -325,7 +325,7 @@ static sph_sim_def sim_def(const sph_case *c, int threads)
   return def;
 }
 
-static int build_parts(const builder *b)
+static int build_parts(builder *b)
 {
   const sph_case_node *root = b->c->root, *node;
   int status = told(b, child_of(root, "spacing"));
@@ -336,7 +336,7 @@ static int build_parts(const builder *b)
   if (!status) status = set_integrator(b, child_of(root, "integrator"));
   for (node = child_of(root, "groups")->first; node && !status; node = node->next)
     status = set_initial(b, node);
-  return status;
+  return status ? status : sph_case_event_add(b->c, b->sim, &b->motions, b->error);
 }
 
 sph_sim *sph_case_build(const sph_case *c, int threads, sph_error *error)
@@ -393,4 +393,5 @@ void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directo
                       .command = command};
   sph_sim_add_output(sim, sph_output_hdf5_def(&def));
   add_series(c, sim, directory, get_number(output, "series", end / 500));
+  if (child_of(c->root, "events")) sph_sim_add_output(sim, sph_output_events(directory));
 }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "case_event.h"
 #include "case_material.h"
 #include "case_schema.h"
 #include "words.h"
@@ -342,5 +343,6 @@ int sph_case_check(sph_case *c)
   int status = check_map(c, "case", c->root);
   if (!status) status = check_fluid(c);
   if (!status) status = sph_case_material_check(c);
+  if (!status) status = sph_case_event_check(c);
   return status ? status : check_forms(c);
 }

@@ -1,12 +1,9 @@
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "file.h"
 #include "memory.h"
 #include "monitor.h"
+#include "rows.h"
 #include "sphode/output.h"
 #include "sphode/sim.h"
 #include "text.h"
@@ -15,10 +12,9 @@
 typedef struct context {
   sph_error error; /* of the constructor; told by open */
   char *directory;
-  char path[SPH_PATH];
   sph_monitor *monitors; /* [n], strings owned */
   int n;
-  int fd; /* -1: closed */
+  sph_rows rows;
 } context;
 
 static char *copy(const char *text, sph_error *error)
@@ -98,21 +94,6 @@ static int numbers(const context *c, sph_sim *sim, sph_text *row, sph_error *err
   return status;
 }
 
-/* One write a row; a row that does not fit on the disk is taken back. */
-static int append(context *c, sph_text *row, sph_error *error)
-{
-  int status = sph_error_set(error, row->error.status, "%s", row->error.text);
-  off_t end = lseek(c->fd, 0, SEEK_END);
-  ssize_t done = status == SPH_OK ? write(c->fd, row->data, row->length) : 0;
-  if (status == SPH_OK && done != (ssize_t)row->length) {
-    int why = done < 0 ? errno : ENOSPC;
-    if (ftruncate(c->fd, end) != 0) errno = why; /* a device; told is why it did not fit */
-    status = sph_error_set(error, SPH_ERR_FILE, "cannot write to %s: %s", c->path, strerror(why));
-  }
-  sph_text_free(row);
-  return status;
-}
-
 static int open_series(void *ctx, sph_sim *sim, sph_error *error)
 {
   context *c = ctx;
@@ -122,21 +103,18 @@ static int open_series(void *ctx, sph_sim *sim, sph_error *error)
   int status = SPH_OK;
   for (int k = 0; status == SPH_OK && k < c->n; k++)
     status = sph_monitor_check(&c->monitors[k], sim, error);
-  if (status == SPH_OK) status = sph_file_make_directory(c->directory, error);
-  if (status == SPH_OK) status = sph_file_path(c->path, c->directory, "series.csv", error);
+  if (status == SPH_OK) status = sph_rows_open(&c->rows, c->directory, "series.csv", error);
   if (status != SPH_OK) return status;
-  c->fd = open(c->path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
-  if (c->fd < 0)
-    return sph_error_set(error, SPH_ERR_FILE, "cannot write %s: %s", c->path, strerror(errno));
   header(c, sim, &row);
-  return append(c, &row, error);
+  return sph_rows_append(&c->rows, &row, error);
 }
 
 static int frame_series(void *ctx, sph_sim *sim, sph_error *error)
 {
+  context *c = ctx;
   sph_text row = {0};
-  int status = numbers(ctx, sim, &row, error);
-  if (status == SPH_OK) return append(ctx, &row, error);
+  int status = numbers(c, sim, &row, error);
+  if (status == SPH_OK) return sph_rows_append(&c->rows, &row, error);
   sph_text_free(&row);
   return status;
 }
@@ -145,19 +123,15 @@ static int close_series(void *ctx, sph_sim *sim, sph_error *error)
 {
   context *c = ctx;
   (void)sim;
-  if (!c || c->fd < 0) return SPH_OK;
-  int why = fsync(c->fd) != 0 ? errno : 0;
-  if (close(c->fd) != 0 && !why) why = errno;
-  c->fd = -1;
-  if (!why) return SPH_OK;
-  return sph_error_set(error, SPH_ERR_FILE, "cannot write %s: %s", c->path, strerror(why));
+  return c ? sph_rows_close(&c->rows, error) : SPH_OK;
 }
 
 static void free_series(void *ctx)
 {
   context *c = ctx;
+  sph_error none = {0};
   if (!c) return;
-  if (c->fd >= 0) close(c->fd);
+  sph_rows_close(&c->rows, &none);
   for (int k = 0; c->monitors && k < c->n; k++) {
     sph_memory_free((void *)c->monitors[k].name);
     sph_memory_free((void *)c->monitors[k].type);
@@ -191,7 +165,7 @@ sph_output sph_output_series(const char *directory, double interval, const sph_m
 {
   context *c = sph_memory_take(1, sizeof *c);
   if (c) {
-    c->fd = -1;
+    c->rows.fd = -1;
     c->directory = copy(directory, &c->error);
     copy_monitors(c, monitors, n);
   }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "file.h"
+#include "sphode/event.h"
 #include "sphode/output.h"
 #include "sphode/sim.h"
 #include "text.h"
@@ -45,6 +46,14 @@ static double distance(const double a[3], const double b[3])
 static double pairs_per_second(const facts *f)
 {
   return f->stats.seconds > 0 ? f->stats.pairs / f->stats.seconds : 0;
+}
+
+/* Steps that error control looked at. */
+static double tried(const sph_step_stats *s) { return (double)(s->steps + s->rejected); }
+
+static double a_step(const sph_step_stats *s)
+{
+  return s->steps ? (double)s->rhs_evaluations / (double)s->steps : 0;
 }
 
 static int judged(const sph_comparison *c) { return !isnan(c->bar); }
@@ -111,10 +120,34 @@ static void json_what(sph_text *t, const facts *f)
   for (int k = 0; k < SPH_BOUND_COUNT; k++)
     sph_text_add(t, "%s\"%s\": %ld", k ? ", " : "", sph_bound_name(k), s->bound_by[k]);
   sph_text_add(t, "}");
+  member(t, "fraction_bound_by");
+  sph_text_add(t, "{");
+  for (int k = 0; k < SPH_BOUND_COUNT; k++)
+    sph_text_add(t, "%s\"%s\": %.6g", k ? ", " : "", sph_bound_name(k),
+                 (double)s->bound_by[k] / fmax(1, (double)s->steps));
+  sph_text_add(t, "}");
+  real(t, "rhs_per_step", a_step(s));
   real(t, "wall_seconds", f->stats.seconds);
   real(t, "pairs", f->stats.pairs);
   real(t, "pairs_per_second", pairs_per_second(f));
   real(t, "memory_bytes", f->stats.bytes);
+}
+
+static void json_events(sph_text *t, const facts *f)
+{
+  sph_event_info event;
+  member(t, "events");
+  sph_text_add(t, "[");
+  for (int k = 0; sph_sim_event_get(f->sim, k, &event); k++) {
+    sph_text_add(t, "%s\n    {\"name\": ", k ? "," : "");
+    sph_text_json_string(t, event.name);
+    real(t, "  count", (double)event.count);
+    real(t, "  first_s", event.first);
+    real(t, "  last_s", event.last);
+    sph_text_add(t, "}");
+  }
+  sph_text_add(t, "]");
+  string(t, "stopped_by", sph_sim_stopped_by(f->sim));
 }
 
 static void json_vector(sph_text *t, const char *name, const double v[3])
@@ -178,6 +211,42 @@ static void json_comparisons(sph_text *t, const facts *f)
 
 static void line(sph_text *t, const char *name) { sph_text_add(t, "%-13s", name); }
 
+/* Which limit bound which part of the steps, and what they cost. */
+static void text_steps(sph_text *t, const sph_step_stats *s)
+{
+  int listed = 0;
+  line(t, "bound by");
+  for (int k = 0; k < SPH_BOUND_COUNT; k++)
+    if (s->bound_by[k])
+      sph_text_add(t, "%s%s %.3g %%", listed++ ? ", " : "", sph_bound_name(k),
+                   100.0 * (double)s->bound_by[k] / (double)s->steps);
+  sph_text_add(t, "%s\n", listed ? "" : "nothing yet");
+  line(t, "repeated");
+  sph_text_add(t, "%ld by error control (%.2g %% of the steps tried), %ld not admissible\n",
+               s->rejected, 100.0 * (double)s->rejected / fmax(1, tried(s)), s->retries);
+  line(t, "evaluations");
+  sph_text_add(t, "%ld right-hand sides, %.3g a step", s->rhs_evaluations, a_step(s));
+  if (s->solves)
+    sph_text_add(t, ", %ld implicit stages (%ld iterations)", s->solves, s->solve_iterations);
+  sph_text_add(t, "\n");
+}
+
+static void text_events(sph_text *t, const facts *f)
+{
+  sph_event_info event;
+  for (int k = 0; sph_sim_event_get(f->sim, k, &event); k++) {
+    line(t, k ? "" : "events");
+    sph_text_add(t, "%s: %ld time%s", event.name, event.count, event.count == 1 ? "" : "s");
+    if (event.count == 1) sph_text_add(t, ", at %.9g s", event.first);
+    if (event.count > 1) sph_text_add(t, ", from %.9g to %.9g s", event.first, event.last);
+    sph_text_add(t, "\n");
+  }
+  const char *name = sph_sim_stopped_by(f->sim);
+  if (!name) return;
+  line(t, "stopped by");
+  sph_text_add(t, "%s\n", name);
+}
+
 static void text_run(sph_text *t, const facts *f)
 {
   const sph_step_stats *s = &f->stats.step;
@@ -187,18 +256,7 @@ static void text_run(sph_text *t, const facts *f)
   line(t, "time");
   sph_text_add(t, "%.6g s in %ld steps of %.3g to %.3g s, %s\n", sph_sim_time(f->sim), s->steps,
                s->dt_smallest, s->dt_largest, sph_sim_integrator(f->sim));
-  line(t, "steps");
-  sph_text_add(t, "%ld rejected, %ld retried, %ld right-hand sides", s->rejected, s->retries,
-               s->rhs_evaluations);
-  if (s->solves)
-    sph_text_add(t, ", %ld implicit stages (%ld iterations)", s->solves, s->solve_iterations);
-  sph_text_add(t, "; bound by");
-  int listed = 0;
-  for (int k = 0; k < SPH_BOUND_COUNT; k++)
-    if (s->bound_by[k])
-      sph_text_add(t, "%s %s %.3g %%", listed++ ? "," : "", sph_bound_name(k),
-                   100.0 * (double)s->bound_by[k] / (double)s->steps);
-  sph_text_add(t, "%s\n", listed ? "" : " nothing yet");
+  text_steps(t, s);
   line(t, "work");
   sph_text_add(t, "%.3g pairs in %.3g s: %.3g million pairs/s; %.3g MB\n", f->stats.pairs,
                f->stats.seconds, 1e-6 * pairs_per_second(f), 1e-6 * f->stats.bytes);
@@ -263,6 +321,7 @@ static void text_who(sph_text *t, const facts *f)
 static void text_all(sph_text *t, const facts *f)
 {
   text_run(t, f);
+  text_events(t, f);
   text_balance(t, f);
   text_who(t, f);
   text_comparisons(t, f);
@@ -301,6 +360,7 @@ int sph_summary_write(const char *directory, sph_sim *sim, const sph_balance *st
   sph_text json = {0}, text = {0};
   json_who(&json, &f);
   json_what(&json, &f);
+  json_events(&json, &f);
   json_balances(&json, &f);
   json_comparisons(&json, &f);
   text_all(&text, &f);

@@ -155,6 +155,23 @@ void sph_sim_add_term(sph_sim *sim, sph_term term)
   if (!kept && term.free) term.free(term.ctx);
 }
 
+void sph_sim_set_scale(sph_sim *sim, const sph_group *group, const char *field, double scale)
+{
+  if (!sph_sim_data_ok(sim)) return;
+  int number = sph_field_find(field), scalar = sph_term_set_scalar(&sim->terms, field);
+  if (number < 0 && scalar >= 0) number = SPH_SCALAR + scalar;
+  if (sim->prepared)
+    sph_sim_fail(sim, SPH_ERR_STATE, "scales of error weights are set before the run");
+  else if (group && group->sim != sim)
+    sph_sim_fail(sim, SPH_ERR_ARGUMENT, "scale: group %s is of another simulation", group->name);
+  else if (number < 0)
+    sph_sim_fail(sim, SPH_ERR_ARGUMENT, "scale of \"%.60s\": no such field", field ? field : "");
+  else if (!(scale > 0 && scale < INFINITY))
+    sph_sim_fail(sim, SPH_ERR_ARGUMENT, "scale of %s: %g; right is finite and > 0", field, scale);
+  else
+    sim->set_scale[group ? group->index : SPH_SETS_MAX][number] = scale;
+}
+
 /* Terms that did nothing at the start have no loop. */
 void sph_sim_change_term(sph_sim *sim, sph_term term)
 {

@@ -101,6 +101,7 @@ struct sph_sim {
   sph_outlet outlet[SPH_OUTPUTS_MAX];
   sph_watch watch[SPH_EVENTS_MAX];
   sph_modifying modifier[SPH_MODIFIERS_MAX];
+  double set_scale[SPH_SETS_MAX + 1][SPH_FIELDS]; /* the user's, 0: none; last: of all fluids */
   sph_integrator_def integrator_def;
   char method[SPH_METHOD_MAX];
   sph_scheme scheme; /* the user's own, copied; its name is method */
@@ -124,7 +125,7 @@ struct sph_sim {
   struct sph_implicit *implicit;          /* solves stages of the implicit part; NULL without one */
   fluid_constants constants;              /* of no interaction: for walls and gradients */
   double F_scale, W_scale;                /* sigma/h^(d+2), sigma/h^d */
-  double scale[SPH_SETS_MAX][SPH_FIELDS]; /* error weights: physical scale of each field */
+  double scale[SPH_SETS_MAX][SPH_FIELDS]; /* error weights: scale of each field */
   double step_scale_v;                    /* V of the error weights [m/s] */
 
   /* Moving. */

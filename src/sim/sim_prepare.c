@@ -328,6 +328,7 @@ int sph_sim_prepare(sph_sim *sim)
   if (!status) status = make_terms(sim);
   if (!status) status = start_groups(sim);
   if (!status) status = make_vectors(sim);
+  if (!status) status = sph_sim_weights_check(sim);
   for (int g = 0; !status && g < sim->groups; g++) status = make_sorted(sim, g);
   if (!status) status = make_search(sim);
   if (!status) status = sph_sim_rhs(sim->time, sim->y, sim->ydot, sim); /* p and c for the scales */

@@ -3,7 +3,7 @@
  *   rho: rho0 (V/c0)^2;  u, e: V^2/2;  A: (gamma - 1) rho^(1-gamma) V^2/2;  T: V^2/(2 c_v)
  * and for a thermal one c0 = mean sound speed, rho0 = mean density; for a gas (no c0) V = c0.  An
  * energy that is carried along: the range of u at the start or a thousandth of u, if that is more.
- * Scalars: as their terms say. */
+ * Scalars: as their terms say.  What sph_sim_set_scale says comes first. */
 #include "sim_weights.h"
 
 #include <math.h>
@@ -70,6 +70,29 @@ void sph_sim_weights_scales(sph_sim *sim, int g, const sph_view *view)
   scale[SPH_ENTROPY] = (gamma - 1) * pow(rho, 1 - gamma) * u;
   scale[SPH_TEMPERATURE] = u / group->eos.c_v;
   for (int q = 0; q < group->scalars; q++) scale[SPH_SCALAR + q] = sim->terms.scalar[q].scale;
+  for (int field = 0; field < SPH_FIELDS; field++) {
+    const double *all = sim->set_scale[SPH_SETS_MAX], *own = sim->set_scale[g];
+    if (all[field] > 0) scale[field] = all[field];
+    if (own[field] > 0) scale[field] = own[field];
+  }
+}
+
+int sph_sim_weights_check(sph_sim *sim)
+{
+  for (int set = 0; set <= SPH_SETS_MAX; set++)
+    for (int field = 0; field < SPH_FIELDS; field++) {
+      int found = 0;
+      for (int g = 0; g < sim->groups; g++)
+        found |= (g == set || set == SPH_SETS_MAX) && sim->group[g]->offset[field][0] >= 0;
+      if (found || !(sim->set_scale[set][field] > 0)) continue;
+      const sph_field_info *info = sph_group_field(sim->group[0], field);
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "scale %g of %s: %s%s integrates it; right is a field of the ODE vector",
+                          sim->set_scale[set][field], info ? info->name : "a scalar",
+                          set < SPH_SETS_MAX ? "nothing in group " : "no fluid",
+                          set < SPH_SETS_MAX ? sim->group[set]->name : "");
+    }
+  return SPH_OK;
 }
 
 double sph_sim_weights_rate(const sph_sim *sim, N_Vector rates)

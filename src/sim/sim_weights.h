@@ -6,6 +6,8 @@
 
 /* Sets the scales of group g from its state at the start (p, c known). */
 void sph_sim_weights_scales(sph_sim *sim, int g, const sph_view *view);
+/* Is every scale that the user set that of a field that is integrated? */
+int sph_sim_weights_check(sph_sim *sim);
 /* The rms of rates (a vector like y) of all fields but the position, over their scales [1/s]. */
 double sph_sim_weights_rate(const sph_sim *sim, N_Vector rates);
 

@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "memory.h"
-
 static int not_below_zero(const char *term, const char *name, double value, sph_error *error)
 {
   if (isfinite(value) && value >= 0) return SPH_OK;
@@ -335,26 +333,16 @@ int sph_term_set_change(sph_term_set *set, const sph_term *term, sph_error *erro
 {
   const char *name = term->name ? term->name : "";
   int own = term->pair || (term->body && strcmp(name, "harmonic") != 0);
-  sph_term_set *kept = SPH_NEW(sph_term_set, 1, "terms", error);
-  if (!kept) return SPH_ERR_MEMORY;
-  *kept = *set;
-  int status = SPH_OK;
-  if (!own && !strcmp(name, "harmonic")) {
-    status = change_harmonic(set, term, error);
-  } else if (!own && !strcmp(name, "gravity")) {
+  if (!own && !strcmp(name, "harmonic")) return change_harmonic(set, term, error);
+  if (!own && !strcmp(name, "gravity")) {
     for (int d = 0; d < 3; d++) set->g[d] = 0;
-    status = add_gravity(set, term, error);
-  } else if (!own && sph_term_set_bits(name)) {
-    status = change_pair(set, term, error);
-  } else {
-    status = sph_error_set(error, SPH_ERR_ARGUMENT,
-                           "term \"%.60s\" cannot change; gravity, harmonic, viscosity-artificial, "
-                           "viscosity-signal, conductivity-artificial, xsph, delta can",
-                           name);
+    return add_gravity(set, term, error);
   }
-  if (status) *set = *kept;
-  sph_memory_free(kept);
-  return status;
+  if (!own && sph_term_set_bits(name)) return change_pair(set, term, error);
+  return sph_error_set(error, SPH_ERR_ARGUMENT,
+                       "term \"%.60s\" cannot change; gravity, harmonic, viscosity-artificial, "
+                       "viscosity-signal, conductivity-artificial, xsph, delta can",
+                       name);
 }
 
 int sph_term_set_check(const sph_term_set *set, sph_error *error)

@@ -47,8 +47,7 @@ typedef struct sph_term_set {
 
 /* Checks a term and takes it in (its ctx too: on failure it is let go of). */
 int sph_term_set_add(sph_term_set *set, const sph_term *term, sph_error *error);
-/* New parameters of a built-in term that is there (gravity: of all of them); its form stays.  On
- * failure nothing changes. */
+/* New parameters of a built-in term that is there (gravity: of all of them); its form stays. */
 int sph_term_set_change(sph_term_set *set, const sph_term *term, sph_error *error);
 /* The bits of the built-in pair terms of that name; 0: none. */
 unsigned sph_term_set_bits(const char *name);

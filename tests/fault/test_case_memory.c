@@ -20,7 +20,9 @@ static const char text[] =
     "    [{box: {lower: [0, 0], upper: [H, H]}}], initial: {velocity: [x/T, -y/T]}}\n"
     "  tank: {kind: wall, density: 1000, shapes: [{layers: {lower: [0, 0], upper: [H, H]}}],\n"
     "    boundary: {motion: {velocity: [1, 0], slide: true}}}\n"
-    "terms: {continuity: , pressure: }\nrun: {end: 1}\n"
+    "terms: {continuity: , pressure: , gravity: {acceleration: [0, -1]}}\nrun: {end: 1}\n"
+    "events: {e: {when: {front: {at: 1, group: water}}, change: {gravity: [0, 0],\n"
+    "  walls: {tank: {velocity: [0, 0]}}}}}\n"
     "compare: [{name: n, quantity: front, reference: {value: 1}}]\n";
 
 /* Whether the case was read and its simulation made. */

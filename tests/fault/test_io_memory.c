@@ -38,6 +38,18 @@ static int series(sph_error *error)
   return run(sph_output_series(directory, 1, monitors, 2), error);
 }
 
+static int events(sph_error *error)
+{
+  sph_output output = sph_output_events(directory);
+  const sph_event_record record = {.name = "wet", .t = 1};
+  int status = output.open(output.ctx, sim, error);
+  for (int k = 0; status == SPH_OK && k < 2; k++)
+    status = output.event(output.ctx, sim, &record, error);
+  output.close(output.ctx, sim, error);
+  output.free(output.ctx);
+  return status;
+}
+
 static int summary(sph_error *error)
 {
   static const sph_comparison comparison = {.name = "x", .value = 1, .bar = 2, .pass = 1};
@@ -83,6 +95,7 @@ static void all(void **state)
   (void)state;
   each_allocation_fails(snapshots, SPH_OK);
   each_allocation_fails(series, SPH_OK);
+  each_allocation_fails(events, SPH_OK);
   each_allocation_fails(summary, SPH_OK);
   each_allocation_fails(pictures, SPH_ERR_UNBUILT);
   each_allocation_fails(curves, SPH_ERR_UNBUILT);
@@ -115,6 +128,7 @@ static int tear_down(void **state)
                                      "snapshot.hdf.series",
                                      "walls.hdf.series",
                                      "series.csv",
+                                     "events.csv",
                                      "summary.json",
                                      "summary.txt",
                                      "a.gp",

@@ -18,7 +18,7 @@
 
 /* ---- things of the user, with counters of how often they were let go of ---- */
 
-enum { TERM, EOS, BOUNDARY, OUTPUT, FIELD, OWNED };
+enum { TERM, EOS, BOUNDARY, OUTPUT, EVENT, MODIFIER, FIELD, OWNED };
 static int let_go[OWNED];
 static void count(void *ctx) { (*(int *)ctx)++; }
 
@@ -109,6 +109,45 @@ static void add_scalar(sph_sim *sim)
                                    .scalar = {.name = "c", .scale = 1, .initial = 1}});
 }
 
+static double moment(void *ctx, sph_sim *sim)
+{
+  (void)ctx;
+  return sph_sim_time(sim) - 0.003;
+}
+
+static int happens(void *ctx, sph_sim *sim)
+{
+  (void)ctx;
+  sph_sim_change_term(sim, sph_term_gravity((double[3]){0, -9, 0}));
+  return SPH_OK;
+}
+
+static int wrote(void *ctx, sph_sim *sim)
+{
+  (void)ctx, (void)sim;
+  return 1;
+}
+
+/* Events that look at all there is, one that happens, and what comes between steps. */
+static void add_moments(sph_sim *sim)
+{
+  sph_sim_add_event(sim, &(sph_event){.name = "own",
+                                      .value = moment,
+                                      .change = happens,
+                                      .snapshot = 1,
+                                      .ctx = &let_go[EVENT],
+                                      .free = count});
+  sph_sim_add_event(sim, &(sph_event){.name = "front", .type = "front", .threshold = 3});
+  sph_sim_add_event(sim, &(sph_event){.name = "wet", .type = "wet", .x = {0.5, 2}});
+  sph_sim_add_event(sim, &(sph_event){.name = "energy", .type = "energy", .threshold = 1e9});
+  sph_sim_add_event(sim, &(sph_event){.name = "steady", .type = "steady", .threshold = 1e-9});
+  sph_sim_add_modifier(sim, (sph_modifier){.name = "m",
+                                           .interval = 0.004,
+                                           .modify = wrote,
+                                           .ctx = &let_go[MODIFIER],
+                                           .free = count});
+}
+
 static int attach_and_run(sph_sim *sim, const variant *v)
 {
   sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1, 0.5}, 1000);
@@ -134,6 +173,7 @@ static int attach_and_run(sph_sim *sim, const variant *v)
   sph_sim_set_integrator(sim, &(sph_integrator_def){.method = v->method});
   sph_sim_add_output(sim, (sph_output){"nothing", 0.002, .frame = frame, .ctx = &let_go[OUTPUT],
                                        .free = count});
+  add_moments(sim);
   long n = sph_group_count(water);
   double *u = v->thermal || v->energy ? sph_group_write(water, "energy", 0) : NULL;
   for (long i = 0; u && i < n; i++) u[i] = 100;

@@ -185,12 +185,67 @@ static void stiffened_gas(void **state)
   }
 }
 
+/* What the user sets comes first, of a group before that of all; the others stay. */
+static void set_by_hand(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    sph_sim *sim = box(2, 1000, sph_eos_tait(1000, 20, 7), "u");
+    sph_sim_add_term(sim, (sph_term){.name = "rest",
+                                     .body = nothing,
+                                     .scalar = {.name = "q", .scale = 3, .initial = 1}});
+    sph_sim_set_scale(sim, NULL, "velocity", 7);
+    sph_sim_set_scale(sim, NULL, "q", 0.25);
+    if (k) sph_sim_set_scale(sim, sph_sim_group(sim, "fluid"), "velocity", 5);
+    if (k == 2) sph_sim_set_scale(sim, NULL, "velocity", 9);
+    for (int d = 0; d < 2; d++) {
+      scale_is(sim, "velocity", d, k ? 5 : 7);
+      scale_is(sim, "position", d, h_over_dx * dx);
+    }
+    scale_is(sim, "density", 0, 1000 * 0.1 * 0.1);
+    scale_is(sim, "energy", 0, 2);
+    scale_is(sim, "q", 0, 0.25);
+    sph_sim_free(sim);
+  }
+}
+
+/* Twice all scales and half of the tolerance: the same steps, which errors bind. */
+static void scales_times_tolerance(void **state)
+{
+  (void)state;
+  double steps[2], v[2];
+  for (int k = 0; k < 2; k++) {
+    sph_sim *sim = box(2, 1000, sph_eos_tait(1000, 20, 7), NULL);
+    sph_sim_set_integrator(sim, &(sph_integrator_def){.tolerance = 1e-6 / (1 + k)});
+    if (k) {
+      sph_sim_set_scale(sim, NULL, "position", 2 * h_over_dx * dx);
+      sph_sim_set_scale(sim, NULL, "velocity", 4);
+      sph_sim_set_scale(sim, NULL, "density", 2 * 1000 * 0.1 * 0.1);
+    }
+    double *vx = sph_group_write(sph_sim_group(sim, "fluid"), "velocity", 0);
+    for (int i = 0; i < N; i++) vx[i] = 2 * sin(i);
+    assert_int_equal(sph_sim_run(sim, 0.05), SPH_OK);
+    sph_sim_stats stats;
+    sph_sim_get_stats(sim, &stats);
+    steps[k] = (double)stats.step.steps;
+    v[k] = sph_group_read(sph_sim_group(sim, "fluid"), "velocity", 0)[7];
+    assert_true(stats.step.bound_by[SPH_BOUND_ERROR] > stats.step.steps / 2);
+    sph_sim_free(sim);
+  }
+  assert_true(steps[0] == steps[1]);
+  assert_true(fabs(v[0] - v[1]) < 1e-9);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(speed_of_a_liquid), cmocka_unit_test(carried_energy),
-      cmocka_unit_test(scalars),           cmocka_unit_test(ideal_gas),
+      cmocka_unit_test(speed_of_a_liquid),
+      cmocka_unit_test(carried_energy),
+      cmocka_unit_test(scalars),
+      cmocka_unit_test(ideal_gas),
       cmocka_unit_test(stiffened_gas),
+      cmocka_unit_test(set_by_hand),
+      cmocka_unit_test(scales_times_tolerance),
   };
   return cmocka_run_group_tests_name("weights", tests, NULL, NULL);
 }

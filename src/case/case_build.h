@@ -1,0 +1,21 @@
+/* case_build.h -- what the builder shares with the files that build parts. */
+#ifndef SPH_CASE_BUILD_H
+#define SPH_CASE_BUILD_H
+#include "case_motion.h"
+#include "case_schema.h"
+#include "sphode/neighbors.h"
+#include "sphode/sim.h"
+
+/* Walls with a motion. */
+typedef struct sph_case_motions {
+  int n;
+  struct {
+    const char *group; /* of the case */
+    sph_case_motion *motion;
+  } of[SPH_SETS_MAX];
+} sph_case_motions;
+
+/* The term of a checked node of `terms`; its form is borrowed from the node. */
+sph_term sph_case_build_term(const sph_case_node *map);
+
+#endif

@@ -1,0 +1,198 @@
+#include "case_event.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "memory.h"
+#include "sphode/event.h"
+
+#define get_text sph_case_reader_text
+#define get_number sph_case_reader_number
+#define get_vector sph_case_reader_vector
+#define child_of sph_case_reader_find
+#define FAIL(node, ...) sph_case_schema_fail(c, c->error, node, 0, 0, __VA_ARGS__)
+#define FAIL_VALUE(node, ...) sph_case_schema_fail(c, c->error, node, 1, 0, __VA_ARGS__)
+
+/* ---- checks */
+
+static int kind_is(const sph_case *c, const char *group, const char *kind)
+{
+  const sph_case_node *map = child_of(child_of(c->root, "groups"), group);
+  return map && !strcmp(get_text(map, "kind", ""), kind);
+}
+
+static int check_walls(const sph_case *c, const sph_case_node *walls)
+{
+  for (const sph_case_node *wall = walls ? walls->first : NULL; wall; wall = wall->next) {
+    const sph_case_node *group = child_of(child_of(c->root, "groups"), wall->key);
+    if (!kind_is(c, wall->key, "wall"))
+      return FAIL(wall, "walls: there is no wall '%.60s'", wall->key);
+    if (!child_of(child_of(group, "boundary"), "motion"))
+      return FAIL(wall,
+                  "walls: '%.60s' has no motion to change; give it one, boundary: {motion: "
+                  "{velocity: ...}}, zero if it is at rest",
+                  wall->key);
+  }
+  return SPH_OK;
+}
+
+static int check_change(const sph_case *c, const sph_case_node *change)
+{
+  const sph_case_node *terms = child_of(c->root, "terms"), *node = change->first;
+  if (!node) return FAIL(change, "change: found nothing to change");
+  for (; node; node = node->next)
+    if (strcmp(node->key, "walls") && !child_of(terms, node->key))
+      return FAIL(node, "change: the case has no term '%.60s'", node->key);
+  return check_walls(c, child_of(change, "walls"));
+}
+
+static int check_group(const sph_case *c, const sph_case_node *group)
+{
+  if (!group || kind_is(c, group->text, "fluid")) return SPH_OK;
+  return FAIL_VALUE(group, "group: there is no fluid '%.60s'", group->text);
+}
+
+static int check_axis(const sph_case *c, const sph_case_node *axis)
+{
+  if (!axis || axis->text[0] - 'x' < c->dim) return SPH_OK;
+  return FAIL_VALUE(axis, "axis: there is no %s in %d dimension%s", axis->text, c->dim,
+                    c->dim == 1 ? "" : "s");
+}
+
+int sph_case_event_check(const sph_case *c)
+{
+  const sph_case_node *events = child_of(c->root, "events");
+  int status = SPH_OK;
+  for (const sph_case_node *e = events ? events->first : NULL; e && !status; e = e->next) {
+    const sph_case_node *front = child_of(child_of(e, "when"), "front");
+    const sph_case_node *change = child_of(e, "change");
+    status = check_group(c, child_of(front, "group"));
+    if (!status) status = check_axis(c, child_of(front, "axis"));
+    if (!status && change) status = check_change(c, change);
+  }
+  return status;
+}
+
+/* ---- changes */
+
+enum { TERMS_MAX = 8, FORM_MAX = 32 };
+
+typedef struct changes {
+  int terms, walls;
+  struct {
+    sph_term term;
+    char form[FORM_MAX];
+  } of_term[TERMS_MAX];
+  struct {
+    sph_case_motion *motion, next;
+  } of_wall[SPH_SETS_MAX];
+} changes;
+
+static int apply(void *ctx, sph_sim *sim)
+{
+  const changes *all = ctx;
+  for (int k = 0; k < all->walls; k++)
+    sph_case_motion_change(all->of_wall[k].motion, sph_sim_time(sim), &all->of_wall[k].next);
+  for (int k = 0; k < all->terms; k++) sph_sim_change_term(sim, all->of_term[k].term);
+  return SPH_OK;
+}
+
+/* The term as it stands above, with a new strength. */
+static void add_term(changes *all, const sph_case *c, const sph_case_node *node)
+{
+  sph_term *term = &all->of_term[all->terms].term;
+  char *form = all->of_term[all->terms++].form;
+  *term = sph_case_build_term(child_of(child_of(c->root, "terms"), node->key));
+  if (term->form) {
+    snprintf(form, FORM_MAX, "%s", term->form);
+    term->form = form;
+  }
+  if (!strcmp(node->key, "gravity"))
+    for (int d = 0; d < 3; d++) term->g[d] = 0;
+  int d = 0;
+  for (const sph_case_node *g = node->first; g; g = g->next) term->g[d++] = g->number;
+  if (!strcmp(node->key, "harmonic"))
+    term->omega = node->number;
+  else if (!strcmp(node->key, "delta"))
+    term->delta = node->number;
+  else if (!strcmp(node->key, "xsph"))
+    term->epsilon = node->number;
+  else if (strcmp(node->key, "gravity"))
+    term->alpha = node->number;
+}
+
+static void add_wall(changes *all, const sph_case_motions *motions, const sph_case_node *wall)
+{
+  for (int k = 0; k < motions->n; k++) {
+    if (strcmp(motions->of[k].group, wall->key)) continue;
+    sph_case_motion *next = &all->of_wall[all->walls].next;
+    all->of_wall[all->walls++].motion = motions->of[k].motion;
+    get_vector(wall, "velocity", next->velocity);
+    next->slide = get_number(wall, "slide", 0) != 0;
+  }
+}
+
+static changes *changes_of(const sph_case *c, const sph_case_motions *motions,
+                           const sph_case_node *map, sph_error *error)
+{
+  changes *all = SPH_NEW(changes, 1, "the changes of an event", error);
+  if (!all) return NULL;
+  for (const sph_case_node *node = map->first; node; node = node->next)
+    if (strcmp(node->key, "walls")) add_term(all, c, node);
+  const sph_case_node *walls = child_of(map, "walls");
+  for (const sph_case_node *wall = walls ? walls->first : NULL; wall; wall = wall->next)
+    add_wall(all, motions, wall);
+  return all;
+}
+
+/* ---- events */
+
+static void occasion_of(const sph_case_node *when, sph_event *event)
+{
+  const sph_case_node *what = when->first;
+  event->type = what->key;
+  if (!strcmp(what->key, "front")) {
+    event->group = get_text(what, "group", NULL);
+    event->axis = get_text(what, "axis", "x")[0] - 'x';
+    event->threshold = get_number(what, "at", 0);
+  } else if (!strcmp(what->key, "energy")) {
+    event->quantity = get_text(what, "quantity", NULL);
+    event->threshold = get_number(what, "level", 0);
+  } else if (what->kind == SPH_CASE_LIST) { /* wet, dry */
+    get_vector(when, what->key, event->x);
+  } else {
+    event->threshold = what->number;
+  }
+}
+
+static int add_event(const sph_case *c, sph_sim *sim, const sph_case_motions *motions,
+                     const sph_case_node *map, sph_error *error)
+{
+  const sph_case_node *change = child_of(map, "change");
+  sph_event event = {.name = map->key,
+                     .direction = get_text(map, "direction", NULL),
+                     .samples = (int)get_number(map, "samples", 0),
+                     .once = get_number(map, "once", 0) != 0,
+                     .snapshot = get_number(map, "snapshot", 0) != 0,
+                     .stop = get_number(map, "stop", 0) != 0};
+  occasion_of(child_of(map, "when"), &event);
+  if (change) {
+    event.ctx = changes_of(c, motions, change, error);
+    if (!event.ctx) return SPH_ERR_MEMORY;
+    event.change = apply;
+    event.free = sph_memory_free;
+  }
+  sph_sim_add_event(sim, &event);
+  if (sph_sim_status(sim) == SPH_OK) return SPH_OK;
+  return sph_case_schema_fail(c, error, map, 0, 0, "%s", sph_sim_error(sim));
+}
+
+int sph_case_event_add(const sph_case *c, sph_sim *sim, const sph_case_motions *motions,
+                       sph_error *error)
+{
+  const sph_case_node *events = child_of(c->root, "events");
+  int status = SPH_OK;
+  for (const sph_case_node *e = events ? events->first : NULL; e && !status; e = e->next)
+    status = add_event(c, sim, motions, e, error);
+  return status;
+}
