@@ -19,7 +19,7 @@ try() { # name, command...
 config() { PKG_CONFIG_SYSROOT_DIR=$stage PKG_CONFIG_PATH=$pc "$PKG_CONFIG" "$@"; }
 program() { LD_LIBRARY_PATH=$library:${LD_LIBRARY_PATH:-} "$stage/program"; }
 
-echo 1..5
+echo 1..9
 try "make install into a stage" env -u MAKEFLAGS -u MAKELEVEL "$MAKE" -C "$BUILDDIR" install DESTDIR="$stage"
 pc=$(dirname "$(find "$stage" -name sphode.pc)")
 library=$(dirname "$pc")
@@ -27,3 +27,13 @@ try "pkg-config knows it" config --exists --print-errors sphode
 try "it compiles and links" $CC $(config --cflags sphode) -o "$stage/program" "$stage/program.c" $(config --libs sphode)
 try "it runs" program
 try "the installed program runs" env LD_LIBRARY_PATH="$library:${LD_LIBRARY_PATH:-}" "$(find "$stage" -path '*/bin/sphode')" --version
+
+# Examples that drive other solvers, by the line in their heads; SUNDIALS itself may live outside of the stage.
+solvers() { PKG_CONFIG_PATH=$pc "$PKG_CONFIG" --define-variable=prefix="${pc%/lib*}" "$@" sphode-sundials; }
+for example in arkode gsl; do
+  more=
+  [[ $example == gsl ]] && more=$("$PKG_CONFIG" --cflags --libs gsl)
+  try "08_drive_$example compiles and links" $CC $(solvers --cflags) -o "$stage/program" \
+    "$SRCDIR/examples/08_drive_$example.c" $(solvers --libs) $more
+  try "it runs" program
+done
