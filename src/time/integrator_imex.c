@@ -15,6 +15,7 @@
 typedef struct imex {
   SUNNonlinearSolver solver; /* its content: the integrator */
   N_Vector known, z;
+  double t; /* of z, if that is a stage of the attempt at work; else that of its start [s] */
 } imex;
 
 static int rhs_explicit(sunrealtype t, N_Vector y, N_Vector ydot, void *data)
@@ -39,12 +40,32 @@ static int take_no_system(SUNNonlinearSolver solver, SUNNonlinSolSysFn system)
   return 0;
 }
 
+static int begin(SUNNonlinearSolver solver, N_Vector y, void *memory)
+{
+  sph_integrator *it = solver->content;
+  ((imex *)((sph_integrator_arkode *)it->own)->kind)->t = it->time;
+  (void)y, (void)memory;
+  return 0;
+}
+
+/* The straight line from the state y at the start of the step to the last stage, at t: it spares an
+ * iterative solver a third of its iterations. */
+static void guess(const sph_integrator *it, imex *own, N_Vector y, double t)
+{
+  double part = own->t > it->time ? (t - it->time) / (own->t - it->time) : 0;
+  if (part > 0)
+    N_VLinearSum(part, own->z, 1 - part, y, own->z);
+  else
+    N_VScale(1, y, own->z);
+  own->t = t;
+}
+
 /* A stage that cannot be solved ends the attempt; our loop repeats it with half the step. */
 static int solve(SUNNonlinearSolver solver, N_Vector y, N_Vector correction, N_Vector weight,
                  sunrealtype tolerance, sunbooleantype setup, void *memory)
 {
   sph_integrator *it = solver->content;
-  const imex *own = ((sph_integrator_arkode *)it->own)->kind;
+  imex *own = ((sph_integrator_arkode *)it->own)->kind;
   N_Vector predicted, current, rate, sdata;
   double t, gamma;
   void *data;
@@ -53,7 +74,7 @@ static int solve(SUNNonlinearSolver solver, N_Vector y, N_Vector correction, N_V
   if (ARK(GetNonlinearSystemData)(memory, &t, &predicted, &current, &rate, &gamma, &sdata, &data))
     return SPH_ERR_STEP;
   N_VLinearSum(1, predicted, 1, sdata, own->known);
-  N_VScale(1, predicted, own->z);
+  guess(it, own, predicted, t);
   sph_stage stage = {.t = t,
                      .gamma = gamma,
                      .tolerance = it->def.stage_tolerance,
@@ -73,6 +94,7 @@ static int attach(sph_integrator *it, imex *own, void *memory, SUNContext contex
   own->solver->content = it;
   own->solver->ops->gettype = type;
   own->solver->ops->setsysfn = take_no_system;
+  own->solver->ops->setup = begin;
   own->solver->ops->solve = solve;
   return ARK(SetNonlinearSolver)(memory, own->solver) || ARK(SetDeduceImplicitRhs)(memory, 1) ||
          ARK(SetPredictorMethod)(memory, 0);

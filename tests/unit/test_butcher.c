@@ -126,8 +126,8 @@ static void order_conditions_hold(void **state)
   assert_true(seen >= 19);
 }
 
-/* Both tables have the same nodes and weights; the implicit one solves all stages but the first with
- * one gamma, and ends with its weights, so that it is L-stable. */
+/* Both tables have the same nodes and weights; the implicit one solves all stages but the first
+ * with one gamma, and ends with its weights, so that it is L-stable. */
 static void order_conditions_of_pairs_hold(void **state)
 {
   static forest f;
