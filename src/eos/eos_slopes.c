@@ -3,7 +3,7 @@
  *
  *   f'(x) = [8 (f(x + e) - f(x - e)) - (f(x + 2e) - f(x - 2e))]/(12 e) + O(e^4),
  *
- * e a thousandth of x: 1e-12 of a smooth f, and wrong within 2e of a kink. */
+ * e = x/2048: 1e-11 of a smooth f, and wrong within 2e of a kink. */
 #include <math.h>
 #include <stddef.h>
 
@@ -12,7 +12,7 @@
 enum { POINTS = 4 };
 static const double at[POINTS] = {-2, -1, 1, 2};
 static const double weight[POINTS] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
-static const double STEP = 0x1p-10;
+static const double STEP = 0x1p-11;
 
 static double stiffness(const sph_eos *eos, double rho, double u)
 {
@@ -47,7 +47,7 @@ void sph_eos_slopes(const sph_eos *eos, long n, const double *rho, const double 
     p_rho[i] /= rho[i];
     c_rho[i] /= rho[i];
     if (!eos->thermal) continue;
-    double scale = fmax(fabs(u[i]), stiffness(eos, rho[i], u[i])) / 4; /* of u */
+    double scale = stiffness(eos, rho[i], u[i]) / 4; /* of the heat in u */
     along(eos, rho[i], u[i], 0, scale, &p_u[i], &c_u[i]);
     p_u[i] /= scale;
     c_u[i] /= scale;
