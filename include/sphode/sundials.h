@@ -50,6 +50,16 @@ SPH_API int sph_sim_solve(sph_sim *sim, double t, double gamma, double tolerance
 /* Error weights 1/(tolerance scale) of every entry at tolerance 1: an ARKEwtFn and CVEwtFn. */
 SPH_API int sph_sim_weights(N_Vector y, N_Vector weight, void *sim);
 
+/* ---- derivatives of f ------------------------------------------------------------------------*/
+
+/* Jv = (df/dy)(t, y) v: an ARKLsJacTimesVecFn and CVLsJacTimesVecFn (fy and tmp are not read).
+ * Exact to rounding but for callbacks of yours (body terms, tiles, phi, an equation of state
+ * without slopes), which are differenced, to about 1e-10; a body term's rates of a particle are
+ * taken to depend on its own state only.  At kinks (a cut-off, a pair that begins to approach) it is
+ * the derivative of one side.  Returns as sph_sim_rhs. */
+SPH_API int sph_sim_jacobian_times(N_Vector v, N_Vector Jv, double t, N_Vector y, N_Vector fy,
+                                   void *sim, N_Vector tmp);
+
 #ifdef __cplusplus
 }
 #endif

@@ -117,6 +117,7 @@ struct sph_sim {
   N_Vector slope[2];       /* rates for events of type steady, and work; NULL without */
   sph_integrator *integrator;
   sph_neighbors *neighbors;
+  struct sph_tangent *tangent; /* of its derivatives; NULL until one is asked for */
   sph_sorted sorted[SPH_SETS_MAX];
   unsigned loop_terms; /* bits of the fluid <- fluid loop */
   int fluid_sums;      /* sums that its loops make */

@@ -2,6 +2,8 @@
  *
  * Where the least eigenvalue of M is under 0.4 (a surface, an isolated particle) the gradient is
  * left out: Molteni's diffusion for that end of the pair. */
+#include <string.h>
+
 #include "gradient_loops.h"
 #include "sim_rhs.h"
 
@@ -21,7 +23,7 @@ static int cholesky(int dim, double A[3][3], double shift, double L[3][3])
 }
 
 /* x = (L L^T)^-1 x. */
-static void solve(int dim, double L[3][3], double x[3])
+void sph_sim_gradients_solve(int dim, double L[3][3], double x[3])
 {
   for (int a = 0; a < dim; a++) {
     for (int k = 0; k < a; k++) x[a] -= L[a][k] * x[k];
@@ -33,16 +35,23 @@ static void solve(int dim, double L[3][3], double x[3])
   }
 }
 
+int sph_sim_gradients_factor(const sph_sim *sim, double *const *matrix, long s, double L[3][3])
+{
+  int k = 0;
+  double M[3][3];
+  memset(L, 0, 9 * sizeof(double));
+  for (int a = 0; a < sim->dim; a++)
+    for (int b = a; b < sim->dim; b++) M[a][b] = M[b][a] = sim->F_scale * matrix[k++][s];
+  return cholesky(sim->dim, M, LEAST_EIGENVALUE, L) && cholesky(sim->dim, M, 0, L);
+}
+
 static void finish(const sph_sim *sim, sph_sorted *sorted, long s)
 {
-  int dim = sim->dim, k = 0;
-  double M[3][3], L[3][3] = {{0}}, gradient[3] = {0};
-  for (int a = 0; a < dim; a++)
-    for (int b = a; b < dim; b++) M[a][b] = M[b][a] = sim->F_scale * sorted->sum[k++][s];
-  for (int a = 0; a < dim; a++) gradient[a] = sim->F_scale * sorted->sum[k++][s];
-  if (!cholesky(dim, M, LEAST_EIGENVALUE, L) || !cholesky(dim, M, 0, L))
-    return; /* the slots hold zeros */
-  solve(dim, L, gradient);
+  int dim = sim->dim, first = gradient_sums(dim) - dim;
+  double L[3][3], gradient[3] = {0};
+  if (!sph_sim_gradients_factor(sim, sorted->sum, s, L)) return; /* the slots hold zeros */
+  for (int a = 0; a < dim; a++) gradient[a] = sim->F_scale * sorted->sum[first + a][s];
+  sph_sim_gradients_solve(dim, L, gradient);
   for (int a = 0; a < dim; a++)
     sorted->record[s * sorted->stride + slot_extra(dim) + a] = gradient[a];
 }

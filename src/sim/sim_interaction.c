@@ -90,6 +90,15 @@ static void add_tiles(sph_evaluation *e, const fluid_constants *fluid, int targe
                      &k);
 }
 
+void sph_sim_interaction_tiles(sph_evaluation *e, int target, int source)
+{
+  const sph_sim *sim = e->sim;
+  fluid_constants k =
+      sph_sim_interaction_constants(sim, e->part, sim->group[target], sim->group[source]);
+  k.terms &= ~(unsigned)SPH_PAIR_TERMS;
+  add_tiles(e, &k, target, source);
+}
+
 void sph_sim_interaction_add(sph_evaluation *e, int target, int source)
 {
   sph_sim *sim = e->sim;

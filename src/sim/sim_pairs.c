@@ -203,13 +203,14 @@ static void add_heating(const sph_evaluation *e, int g)
     view->du[i] = sph_sim_energy_rate(group, view, i, view->du[i], 0);
 }
 
-static void add_group(sph_evaluation *e, int g)
+void sph_sim_pairs_rates(sph_evaluation *e, int g)
 {
   sph_sim *sim = e->sim;
   const int *order = sph_neighbors_order(sim->neighbors, g);
-  sph_sim_pairs_clear(sim, g, sim->fluid_sums);
-  for (int s = 0; s < sim->groups; s++)
-    if (sim->group[s]->wall || !e->part->only_walls) sph_sim_interaction_add(e, g, s);
+  if (!e->part->pairs) {
+    add_heating(e, g);
+    return;
+  }
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (e->view[g].n > PARALLEL_MIN)
   for (long s = 0; s < e->view[g].n; s++)
     add_rates(sim, e->part, sim->group[g], &e->view[g], s, order[s]);
@@ -217,12 +218,13 @@ static void add_group(sph_evaluation *e, int g)
 
 int sph_sim_pairs_add(sph_evaluation *e)
 {
-  for (int g = 0; g < e->sim->groups; g++) {
-    if (e->sim->group[g]->wall) continue;
-    if (e->part->pairs)
-      add_group(e, g);
-    else
-      add_heating(e, g);
+  sph_sim *sim = e->sim;
+  for (int g = 0; g < sim->groups; g++) {
+    if (sim->group[g]->wall) continue;
+    if (e->part->pairs) sph_sim_pairs_clear(sim, g, sim->fluid_sums);
+    for (int s = 0; s < sim->groups && e->part->pairs; s++)
+      if (sim->group[s]->wall || !e->part->only_walls) sph_sim_interaction_add(e, g, s);
+    sph_sim_pairs_rates(e, g);
   }
   return SPH_OK;
 }

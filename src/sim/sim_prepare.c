@@ -11,6 +11,7 @@
 #include "sim_implicit.h"
 #include "sim_parts.h"
 #include "sim_rhs.h"
+#include "sim_tangent.h"
 #include "sim_weights.h"
 #include "sundials.h"
 #include "wall_pair.h"
@@ -152,6 +153,14 @@ static void start_walls(sph_sim *sim)
              (size_t)sim->group[g]->n * sizeof(double));
 }
 
+void sph_sim_prepare_h(sph_sim *sim)
+{
+  sim->H = sph_kernel_support(sim->kernel) * sim->h;
+  sim->constants.inverse_h = 1 / sim->h;
+  sim->W_scale = sph_kernel_sigma(sim->kernel, sim->dim) / pow(sim->h, sim->dim);
+  sim->F_scale = sim->W_scale / (sim->h * sim->h);
+}
+
 /* The loops over pairs: their terms and what these need. */
 static int make_terms(sph_sim *sim)
 {
@@ -167,9 +176,8 @@ static int make_terms(sph_sim *sim)
   if (terms->epsilon == 0) bits &= ~(unsigned)SPH_XSPH;
   if (terms->delta == 0) bits &= ~(unsigned)SPH_DIFFUSION;
   sim->loop_terms = bits;
-  sim->constants = (fluid_constants){.terms = bits, .inverse_h = 1 / sim->h};
-  sim->W_scale = sph_kernel_sigma(sim->kernel, sim->dim) / pow(sim->h, sim->dim);
-  sim->F_scale = sim->W_scale / (sim->h * sim->h);
+  sim->constants = (fluid_constants){.terms = bits};
+  sph_sim_prepare_h(sim);
   sim->needs_temperature = (bits & SPH_CONDUCTION) != 0;
   int status = sph_sim_parts_make(sim);
   sim->fluid_sums = bits & SPH_RARE ? SPH_FLUID_SUMS_ALL : SPH_FLUID_SUMS;
@@ -357,6 +365,7 @@ void sph_sim_prepare_undo(sph_sim *sim)
 {
   sph_integrator_free(sim->integrator);
   sph_sim_implicit_free(sim);
+  sph_sim_tangent_free(sim->tangent);
   if (sim->y) N_VDestroy(sim->y);
   if (sim->ydot) N_VDestroy(sim->ydot);
   if (sim->frame) N_VDestroy(sim->frame);

@@ -32,6 +32,16 @@ void sph_sim_pairs_pack(sph_evaluation *e, int walls); /* sorted copies of fluid
 int sph_sim_pairs_add(sph_evaluation *e);              /* pairs */
 int sph_sim_admit(sph_evaluation *e);                  /* admit */
 
+/* Rates of the particles of group g from its sums. */
+void sph_sim_pairs_rates(sph_evaluation *e, int g);
+/* p, rho, m, c of the particles of wall g from its sums; the force g - a_w that it feels. */
+void sph_sim_walls_finish(const sph_evaluation *e, int g);
+void sph_sim_walls_force(const sph_evaluation *e, int g, double g_minus_a[3]);
+/* Cholesky factor of the gradient matrix at sorted place s, of its sums; 0: the gradient is left
+ * out there.  x = (L L^T)^-1 x. */
+int sph_sim_gradients_factor(const sph_sim *sim, double *const *matrix, long s, double L[3][3]);
+void sph_sim_gradients_solve(int dim, double L[3][3], double x[3]);
+
 /* Positions, and masses in the slot of V. */
 void sph_sim_pairs_pack_positions(const sph_evaluation *e, int g);
 void sph_sim_pairs_clear(sph_sim *sim, int g, int sums);
@@ -47,6 +57,8 @@ sph_particles sph_sim_bodies_particles(const sph_evaluation *e, int g);
 
 /* The pair terms of (target <- source), added to the sums of the target. */
 void sph_sim_interaction_add(sph_evaluation *e, int target, int source);
+/* Of them the registered ones alone. */
+void sph_sim_interaction_tiles(sph_evaluation *e, int target, int source);
 fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part *part,
                                               const sph_group *target, const sph_group *source);
 /* Does density diffuse between them?  Not between a fluid and another, or a wall, of different

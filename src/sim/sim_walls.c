@@ -61,14 +61,20 @@ static void fill(const sph_sim *sim, const sph_group *wall, const sph_view *view
   view->p[i] = p;
 }
 
-static void finish(const sph_evaluation *e, int g)
+void sph_sim_walls_force(const sph_evaluation *e, int g, double g_minus_a[3])
+{
+  double displacement[3], velocity[3], acceleration[3];
+  motion(e->sim->group[g], e->t, displacement, velocity, acceleration);
+  for (int d = 0; d < 3; d++) g_minus_a[d] = e->sim->terms.g[d] - acceleration[d];
+}
+
+void sph_sim_walls_finish(const sph_evaluation *e, int g)
 {
   const sph_sim *sim = e->sim;
   const sph_group *wall = sim->group[g];
   const int *order = sph_neighbors_order(sim->neighbors, g);
-  double displacement[3], velocity[3], acceleration[3], g_minus_a[3];
-  motion(wall, e->t, displacement, velocity, acceleration);
-  for (int d = 0; d < 3; d++) g_minus_a[d] = sim->terms.g[d] - acceleration[d];
+  double g_minus_a[3];
+  sph_sim_walls_force(e, g, g_minus_a);
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (wall->n > 512)
   for (long s = 0; s < wall->n; s++) fill(sim, wall, &e->view[g], s, order[s], g_minus_a);
 }
@@ -87,7 +93,7 @@ int sph_sim_walls_fill(sph_evaluation *e)
     sph_sim_pairs_clear(sim, g, SPH_WALL_SUMS);
     for (int f = 0; f < sim->groups; f++)
       if (!sim->group[f]->wall) sph_sim_pairs_loop(sim, loop, g, f, &sim->constants);
-    finish(e, g);
+    sph_sim_walls_finish(e, g);
   }
   if (!e->part->walls) return SPH_OK;
   sph_sim_material_phi(e, 1);
