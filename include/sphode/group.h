@@ -47,8 +47,8 @@ SPH_API void sph_group_set_eos(sph_group *group, sph_eos eos);
 SPH_API void sph_group_set_boundary(sph_group *group, sph_boundary boundary);
 
 /* Dynamic viscosity eta [Pa s] of a fluid (walls take that of each fluid) and conductivity of heat
- * kappa [W/(m K)] of a fluid or a wall (0: that of the fluid), >= 0 and finite, before the run;
- * default 0. */
+ * kappa [W/(m K)] of a fluid or a wall (0: that of the fluid), >= 0 and finite; default 0.  Before
+ * the run, or between steps and in the change of an event, if a term asked for it at the start. */
 SPH_API void sph_group_set_viscosity(sph_group *group, double eta);
 SPH_API void sph_group_set_conductivity(sph_group *group, double kappa);
 /* Which energy a fluid integrates: "u" (internal), "total" (u + v^2/2), "entropy" (A = p/rho^gamma,

@@ -1,5 +1,6 @@
 #include "case_event.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -36,14 +37,31 @@ static int check_walls(const sph_case *c, const sph_case_node *walls)
   return SPH_OK;
 }
 
+static int check_properties(const sph_case *c, const sph_case_node *groups)
+{
+  static const char *const wants[][2] = {{"viscosity", "viscosity-laminar"},
+                                         {"conductivity", "conduction"}};
+  for (const sph_case_node *one = groups ? groups->first : NULL; one; one = one->next) {
+    if (!child_of(child_of(c->root, "groups"), one->key))
+      return FAIL(one, "groups: there is no group '%.60s'", one->key);
+    for (int k = 0; k < 2; k++)
+      if (child_of(one, wants[k][0]) && !child_of(child_of(c->root, "terms"), wants[k][1]))
+        return FAIL(child_of(one, wants[k][0]), "change: the case has no term '%s'", wants[k][1]);
+  }
+  return SPH_OK;
+}
+
+static int is_group(const char *key) { return !strcmp(key, "walls") || !strcmp(key, "groups"); }
+
 static int check_change(const sph_case *c, const sph_case_node *change)
 {
   const sph_case_node *terms = child_of(c->root, "terms"), *node = change->first;
   if (!node) return FAIL(change, "change: found nothing to change");
   for (; node; node = node->next)
-    if (strcmp(node->key, "walls") && !child_of(terms, node->key))
+    if (!is_group(node->key) && !child_of(terms, node->key))
       return FAIL(node, "change: the case has no term '%.60s'", node->key);
-  return check_walls(c, child_of(change, "walls"));
+  int status = check_properties(c, child_of(change, "groups"));
+  return status ? status : check_walls(c, child_of(change, "walls"));
 }
 
 static int check_group(const sph_case *c, const sph_case_node *group)
@@ -75,14 +93,18 @@ int sph_case_event_check(const sph_case *c)
 
 /* ---- changes */
 
-enum { TERMS_MAX = 8, FORM_MAX = 32 };
+enum { TERMS_MAX = 8, NAME_MAX = 64 };
 
 typedef struct changes {
-  int terms, walls;
+  int terms, groups, walls;
   struct {
     sph_term term;
-    char form[FORM_MAX];
+    char form[NAME_MAX];
   } of_term[TERMS_MAX];
+  struct {
+    char name[NAME_MAX];
+    double viscosity, conductivity; /* NaN: stays */
+  } of_group[SPH_SETS_MAX];
   struct {
     sph_case_motion *motion, next;
   } of_wall[SPH_SETS_MAX];
@@ -93,6 +115,13 @@ static int apply(void *ctx, sph_sim *sim)
   const changes *all = ctx;
   for (int k = 0; k < all->walls; k++)
     sph_case_motion_change(all->of_wall[k].motion, sph_sim_time(sim), &all->of_wall[k].next);
+  for (int k = 0; k < all->groups; k++) {
+    sph_group *group = sph_sim_group(sim, all->of_group[k].name);
+    if (!isnan(all->of_group[k].viscosity))
+      sph_group_set_viscosity(group, all->of_group[k].viscosity);
+    if (!isnan(all->of_group[k].conductivity))
+      sph_group_set_conductivity(group, all->of_group[k].conductivity);
+  }
   for (int k = 0; k < all->terms; k++) sph_sim_change_term(sim, all->of_term[k].term);
   return SPH_OK;
 }
@@ -104,7 +133,7 @@ static void add_term(changes *all, const sph_case *c, const sph_case_node *node)
   char *form = all->of_term[all->terms++].form;
   *term = sph_case_build_term(child_of(child_of(c->root, "terms"), node->key));
   if (term->form) {
-    snprintf(form, FORM_MAX, "%s", term->form);
+    snprintf(form, NAME_MAX, "%s", term->form);
     term->form = form;
   }
   if (!strcmp(node->key, "gravity"))
@@ -138,7 +167,13 @@ static changes *changes_of(const sph_case *c, const sph_case_motions *motions,
   changes *all = SPH_NEW(changes, 1, "the changes of an event", error);
   if (!all) return NULL;
   for (const sph_case_node *node = map->first; node; node = node->next)
-    if (strcmp(node->key, "walls")) add_term(all, c, node);
+    if (!is_group(node->key)) add_term(all, c, node);
+  const sph_case_node *groups = child_of(map, "groups");
+  for (const sph_case_node *one = groups ? groups->first : NULL; one; one = one->next) {
+    snprintf(all->of_group[all->groups].name, NAME_MAX, "%s", one->key);
+    all->of_group[all->groups].viscosity = get_number(one, "viscosity", NAN);
+    all->of_group[all->groups++].conductivity = get_number(one, "conductivity", NAN);
+  }
   const sph_case_node *walls = child_of(map, "walls");
   for (const sph_case_node *wall = walls ? walls->first : NULL; wall; wall = wall->next)
     add_wall(all, motions, wall);

@@ -98,26 +98,36 @@ void sph_group_set_boundary(sph_group *group, sph_boundary boundary)
   group->has_boundary = 1;
 }
 
-/* A property >= 0 and finite, set before the run. */
-static void set_property(sph_group *group, double *to, const char *what, double value,
-                         const char *unit)
+/* A property >= 0 and finite, before the run; later where a loop over pairs has such terms. */
+static void set_property(sph_group *group, double *to, unsigned terms, const char *what,
+                         double value, const char *unit)
 {
-  if (!settable(group, what)) return;
-  if (value >= 0 && isfinite(value))
+  if (!ok(group)) return;
+  sph_sim *sim = group->sim;
+  if (sim->prepared && !(sim->loop_terms & terms))
+    sph_sim_fail(sim, SPH_ERR_STATE,
+                 "group %s: %s is set before the run where no term asks for it at the start",
+                 group->name, what);
+  else if (sim->prepared && sim->shown != sim->y)
+    sph_sim_fail(sim, SPH_ERR_STATE, "group %s: %s changes between steps", group->name, what);
+  else if (!(value >= 0 && isfinite(value)))
+    sph_sim_fail(sim, SPH_ERR_ARGUMENT, "group %s: %s %g %s; right is >= 0 and finite", group->name,
+                 what, value, unit);
+  else {
     *to = value;
-  else
-    sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s: %s %g %s; right is >= 0 and finite",
-                 group->name, what, value, unit);
+    sph_sim_changed(sim);
+  }
 }
 
 void sph_group_set_viscosity(sph_group *group, double eta)
 {
-  if (group) set_property(group, &group->viscosity, "viscosity", eta, "Pa s");
+  if (group) set_property(group, &group->viscosity, SPH_MORRIS | SPH_MCG, "viscosity", eta, "Pa s");
 }
 
 void sph_group_set_conductivity(sph_group *group, double kappa)
 {
-  if (group) set_property(group, &group->conductivity, "conductivity", kappa, "W/(m K)");
+  if (group)
+    set_property(group, &group->conductivity, SPH_CONDUCTION, "conductivity", kappa, "W/(m K)");
 }
 
 double sph_group_viscosity(const sph_group *group) { return group ? group->viscosity : 0; }

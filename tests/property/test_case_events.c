@@ -21,14 +21,14 @@
 static const char head[] =
     "dimension: 2\nspacing: 0.1\nparameters: {g: 10 m/s^2}\n"
     "groups:\n"
-    "  block: {kind: fluid, density: 1000, eos: {tait: {sound_speed: 10}},\n"
+    "  block: {kind: fluid, density: 1000, eos: {tait: {sound_speed: 10}}, viscosity: 1,\n"
     "    scales: {velocity: 3 m/s, density: 20},\n"
     "    shapes: [{box: {lower: [0, 1], upper: [0.4, 1.4]}}]}\n"
     "  gate: {kind: wall, density: 1000, shapes: [{box: {lower: [9, 9], upper: [9.5, 9.5]}}],\n"
     "    boundary: {motion: {velocity: [1, 2]}}}\n"
     "  belt: {kind: wall, density: 1000, shapes: [{box: {lower: [-9, 9], upper: [-8, 9.5]}}],\n"
     "    boundary: {motion: {velocity: [1, 0], slide: true}}}\n"
-    "terms: {continuity: , pressure: , gravity: {acceleration: [0, -g]},\n"
+    "terms: {continuity: , pressure: , viscosity-laminar: , gravity: {acceleration: [0, -g]},\n"
     "  viscosity-artificial: {alpha: 0.02, beta: 0.3}, viscosity-signal: {alpha: 0.5, beta: 2},\n"
     "  delta: {model: molteni, delta: 0.1}, xsph: {epsilon: 0.5}, harmonic: {omega: 0}}\n"
     "integrator: {controller: pi}\nrun: {end: 1}\noutput: {snapshots: 1, series: 0.5}\n";
@@ -107,7 +107,8 @@ static void changes(void **state)
       "  a: {when: {time: 0.1}, change: {gravity: [1, 2], harmonic: 3 Hz, xsph: 0.25,\n"
       "    viscosity-artificial: 0.04, viscosity-signal: 0.75, delta: 0.2,\n"
       "    walls: {gate: {velocity: [0, -4]}, belt: {velocity: [2, 0], slide: true}}}}\n"
-      "  b: {when: {time: 0.2}, change: {gravity: [0, 0], walls: {gate: {velocity: [0, 0]}}}}\n";
+      "  b: {when: {time: 0.2}, change: {gravity: [0, 0], groups: {block: {viscosity: 3}}, walls: "
+      "{gate: {velocity: [0, 0]}}}}\n";
   (void)state;
   sph_case *c = read_case(events);
   sph_sim *sim = build(c);
@@ -131,7 +132,9 @@ static void changes(void **state)
   assert_true(sph_group_read(gate, "velocity", 1)[0] == -4);
   assert_true(sph_group_read(belt, "position", 0)[0] == x1);
   assert_true(sph_group_read(belt, "velocity", 0)[0] == 2);
-  assert_int_equal(sph_sim_run(sim, 0.3), SPH_OK);
+  assert_true(sph_group_viscosity(sph_sim_group(sim, "block")) == 1);
+  if (sph_sim_run(sim, 0.3)) fail_msg("%s", sph_sim_error(sim));
+  assert_true(sph_group_viscosity(sph_sim_group(sim, "block")) == 3);
   assert_true(t->g[0] == 0 && t->g[1] == 0 && t->epsilon == 0.25);
   assert_near(sph_group_read(gate, "position", 1)[0] - y0, 0.2 - 4 * 0.1, 1e-12);
   sph_sim_free(sim);

@@ -152,6 +152,39 @@ static void moments_are_exact(void **state)
   }
 }
 
+/* Every integrator there is, of order two and more, finds a moment, stops there, and goes on.  The
+ * dense output of ARKODE's tables of order two is linear in a step: g dt^2/8 beside the parabola. */
+static void of_every_integrator(void **state)
+{
+  (void)state;
+  const double fall = 0.3, t = sqrt(2 * fall / g), dt = 0.011;
+  double mark = bottom - fall;
+  sph_integrator_info info;
+  int tried = 0;
+  for (int k = 0; sph_integrator_info_get(k, &info); k++) {
+    if (info.order < 2) continue;
+    sph_sim *sim = falling(info.name, dt);
+    if (info.wants & SPH_WANTS_IMPLICIT) { /* viscosity, which does nothing here */
+      sph_group_set_viscosity(sph_sim_group(sim, "block"), 1);
+      sph_sim_add_term(sim, sph_term_viscosity_laminar("morris"));
+    }
+    if (!strncmp(info.name, "mri:", 4)) sph_sim_set_part(sim, "gravity", "fast");
+    sph_sim_add_event(sim, &(sph_event){.name = "own", .value = height, .ctx = &mark, .stop = 1});
+    good(sim, sph_sim_run(sim, 0.4));
+    assert_true(sph_sim_stopped_by(sim) != NULL);
+    double close = info.wants & SPH_WANTS_IMPLICIT ? 1e-6 : 1e-9; /* stages to 1e-8 */
+    double sag = strchr(info.name, ':') && info.order == 2 ? g * dt * dt / 8 : 0;
+    if (!(fabs(sph_sim_time(sim) - t) < close * dt + 1.01 * sag / (g * t)))
+      fail_msg("%s: %.15g, not %.15g", info.name, sph_sim_time(sim), t);
+    good(sim, sph_sim_run(sim, 0.4));
+    assert_near(edge(sim), bottom - g * 0.4 * 0.4 / 2, close + 1.01 * sag);
+    sph_sim_free(sim);
+    tried++;
+  }
+  print_message("# %d integrators\n", tried);
+  assert_true(tried > 20);
+}
+
 /* A point gets wet and dry again as the block falls through it: beside a bisection in the dense
  * output of the same run without events. */
 static double covered(sph_sim *sim)
@@ -501,6 +534,32 @@ static void changes_of_one_moment(void **state)
   sph_sim_free(sim);
 }
 
+/* Viscous forces, the only ones here, are proportional to the viscosity, also to a new one. */
+static void viscosity_changes(void **state)
+{
+  (void)state;
+  double a[2];
+  sph_sim *sim = falling(NULL, 0.001);
+  sph_group *block = sph_sim_group(sim, "block");
+  sph_sim_add_term(sim, sph_term_viscosity_laminar(NULL));
+  sph_sim_change_term(sim, sph_term_gravity((double[3]){0, 0, 0}));
+  sph_group_set_viscosity(block, 2);
+  double *v = sph_group_write(block, "velocity", 0);
+  for (long i = 0; i < sph_group_count(block); i++) v[i] = sin((double)i);
+  for (int k = 0; k < 2; k++) {
+    good(sim, sph_sim_evaluate(sim));
+    a[k] = sph_group_rate(block, "velocity", 0)[5];
+    sph_group_set_viscosity(block, 3);
+  }
+  assert_true(fabs(a[0]) > 0.01);
+  assert_near(a[1] / a[0], 1.5, 1e-13);
+  good(sim, sph_sim_step(sim));
+  sph_group_set_conductivity(block, 1);
+  assert_int_equal(sph_sim_status(sim), SPH_ERR_STATE);
+  assert_non_null(strstr(sph_sim_error(sim), "conductivity is set before the run where no term"));
+  sph_sim_free(sim);
+}
+
 /* ---- rates ---- */
 
 static int drag(const sph_term *term, const sph_particles *s)
@@ -588,6 +647,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(moments_are_exact),
+      cmocka_unit_test(of_every_integrator),
       cmocka_unit_test(wet_and_dry),
       cmocka_unit_test(ends_of_steps_count_once),
       cmocka_unit_test(many_in_a_step),
@@ -599,6 +659,7 @@ int main(void)
       cmocka_unit_test(bounces),
       cmocka_unit_test(a_change_at_the_end_of_a_step),
       cmocka_unit_test(changes_of_one_moment),
+      cmocka_unit_test(viscosity_changes),
       cmocka_unit_test(steady),
       cmocka_unit_test(failures_end_the_run),
   };
