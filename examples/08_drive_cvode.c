@@ -8,7 +8,8 @@
  * Run        ./08_drive_cvode
  * See        the amplitude of the flow, and evaluations of f beside those of an explicit run
  * Check      the amplitude is the exact one within 2 % of the steady one, which is what 32
- *            particles in a wave give; a tenth of the evaluations of an explicit run are enough
+ *            particles in a wave give; evaluations and products with the Jacobian are a tenth of
+ *            the evaluations of an explicit run, or less
  *
  * Where sphode is installed: cc 08_drive_cvode.c $(pkg-config --cflags --libs sphode-sundials)
  * -lsundials_cvode -lsundials_sunlinsolspgmr -lm */
@@ -62,7 +63,8 @@ static int weigh(N_Vector y, N_Vector weight, void *sim)
   return status;
 }
 
-/* Newton's equations are solved by GMRES, which needs products with the Jacobian only. */
+/* Newton's equations are solved by GMRES, which needs products with the Jacobian only; without
+ * CVodeSetJacTimes these would be differences of f. */
 static void *make_cvode(sph_sim *sim, SUNLinearSolver *solver)
 {
   N_Vector y = sph_sim_vector(sim);
@@ -71,7 +73,7 @@ static void *make_cvode(sph_sim *sim, SUNLinearSolver *solver)
   *solver = SUNLinSol_SPGMR(y, SUN_PREC_NONE, 20, y->sunctx);
   if (cvode && *solver && !CVodeInit(cvode, sph_sim_rhs, 0, y) && !CVodeSetUserData(cvode, sim) &&
       !CVodeWFtolerances(cvode, weigh) && !CVodeSetLinearSolver(cvode, *solver, NULL) &&
-      !CVodeSetMaxNumSteps(cvode, 10000))
+      !CVodeSetJacTimes(cvode, NULL, sph_sim_jacobian_times) && !CVodeSetMaxNumSteps(cvode, 10000))
     return cvode;
   if (cvode) CVodeFree(&cvode);
   return NULL;
@@ -110,19 +112,18 @@ int main(void)
   SUNLinearSolver solver = NULL;
   void *cvode = make_cvode(sim, &solver);
   int good = cvode && follow(sim, cvode);
-  long steps = 0, newton = 0, krylov = 0, products = 0;
+  long steps = 0, evaluations = 0, products = 0;
   if (cvode) {
     CVodeGetNumSteps(cvode, &steps);
-    CVodeGetNumRhsEvals(cvode, &newton);
-    CVodeGetNumLinIters(cvode, &krylov);
-    CVodeGetNumLinRhsEvals(cvode, &products);
+    CVodeGetNumRhsEvals(cvode, &evaluations);
+    CVodeGetNumJtimesEvals(cvode, &products);
     CVodeFree(&cvode);
   }
   long needed = explicit_run(20 / (nu * k * k));
-  printf("CVODE: %ld steps, %ld evaluations, %ld of them for %ld iterations of GMRES\n", steps,
-         newton + products, products, krylov);
+  printf("CVODE: %ld steps, %ld evaluations, %ld products with the Jacobian\n", steps, evaluations,
+         products);
   printf("explicit: %ld evaluations\n", needed);
-  good = good && 10 * (newton + products) < needed;
+  good = good && 10 * (evaluations + products) < needed;
   if (!good) fprintf(stderr, "08_drive_cvode: %s\n", sph_sim_error(sim));
   if (solver) SUNLinSolFree(solver);
   sph_sim_free(sim);
