@@ -84,6 +84,9 @@ typedef struct sph_integrator_def {
   /* Of the error of an implicit stage, relative to the same scales; 0: 1e-2 of tolerance with error
    * control, else 1e-8. */
   double stage_tolerance;
+  /* What solves the linear systems of implicit stages: "pcg-jacobi", "pcg-ic0",
+   * "cholmod-supernodal", "cholmod-simplicial", "klu"; NULL: "auto". */
+  const char *linear;
   const sph_scheme *own; /* instead of method: a scheme of your own, copied; NULL: none */
 } sph_integrator_def;
 

@@ -283,6 +283,7 @@ static sph_integrator_def integrator_of(const sph_case_node *map)
       .tolerance = control ? get_number(map, "tolerance", 0) : -1,
       .controller = get_text(map, "controller", NULL),
       .stage_tolerance = get_number(map, "stage_tolerance", 0),
+      .linear = get_text(map, "linear", NULL),
       .dt_max = get_number(map, "dt_max", 0),
       .dt_min = get_number(map, "dt_min", 0),
       .dt_fixed = get_number(map, "dt_fixed", 0),

@@ -8,6 +8,7 @@
 #include "clock.h"
 #include "controller.h"
 #include "cpu.h"
+#include "linear.h"
 #include "memory.h"
 #include "sim_data.h"
 #include "sim_event.h"
@@ -188,6 +189,13 @@ void sph_sim_change_term(sph_sim *sim, sph_term term)
     sph_sim_changed(sim);
 }
 
+static int linear_is_known(sph_sim *sim, const char *name)
+{
+  sph_linear *solver = sph_linear_create(name, 1, &sim->error);
+  sph_linear_free(solver);
+  return solver != NULL;
+}
+
 void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def)
 {
   if (!sph_sim_data_ok(sim)) return;
@@ -195,11 +203,13 @@ void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def)
     sph_sim_fail(sim, SPH_ERR_ARGUMENT, "sph_sim_set_integrator: no definition (NULL)");
   else if (sim->prepared)
     sph_sim_fail(sim, SPH_ERR_STATE, "the integrator is set before the run");
-  else if (sph_integrator_check(def, &sim->error) == SPH_OK) {
+  else if (sph_integrator_check(def, &sim->error) == SPH_OK && linear_is_known(sim, def->linear)) {
     sim->integrator_def = *def;
     const char *name = def->own ? def->own->name : def->method;
     if (name) snprintf(sim->method, sizeof sim->method, "%s", name);
     sim->integrator_def.method = def->method ? sim->method : NULL;
+    if (def->linear) snprintf(sim->linear, sizeof sim->linear, "%s", def->linear);
+    sim->integrator_def.linear = def->linear ? sim->linear : NULL;
     if (def->controller)
       sim->integrator_def.controller = sph_controller_find(def->controller, &sim->error)->name;
     if (def->own) {

@@ -68,10 +68,9 @@ static double damping(const sph_sim *sim, unsigned terms)
 static extremes look(const sph_evaluation *e, const sph_view *view)
 {
   const sph_sim *sim = e->sim;
-  const int acoustic = e->part->acoustic;
+  const int motion = e->part->motion;
   double v2_max = 0, a2_max = 0, speed_max = 0, volume_max = 0;
-  double sound = acoustic + 0.6 * damping(sim, e->part->limit_terms);
-  int moving = acoustic || sound > 0;
+  double sound = e->part->acoustic + 0.6 * damping(sim, e->part->limit_terms);
   long bad = 0, n = view->n;
 #pragma omp parallel for num_threads(sim->threads) schedule(static)                                \
     reduction(max : v2_max, a2_max, speed_max, volume_max) reduction(+ : bad) if (n > PARALLEL_MIN)
@@ -81,7 +80,7 @@ static extremes look(const sph_evaluation *e, const sph_view *view)
       v2 += view->v[d][i] * view->v[d][i];
       a2 += view->dv[d][i] * view->dv[d][i];
     }
-    double speed = moving ? view->c[i] * sound + acoustic * sqrt(v2) : 0;
+    double speed = (sound > 0 ? view->c[i] * sound : 0) + motion * sqrt(v2);
     v2_max = v2 > v2_max ? v2 : v2_max;
     a2_max = a2 > a2_max ? a2 : a2_max;
     speed_max = speed > speed_max ? speed : speed_max;
@@ -99,7 +98,7 @@ static double slowest(const sph_evaluation *e, const sph_group *group, const ext
   double beta = fmax(terms & SPH_ARTIFICIAL ? sim->terms.beta : 0,
                      terms & SPH_SIGNAL ? sim->terms.signal_beta / 2 : 0);
   double speed = x->speed;
-  if (group->eos.thermal) speed += (e->part->acoustic + 1.2 * beta) * sqrt(x->v2);
+  if (group->eos.thermal) speed += (e->part->motion + 1.2 * beta) * sqrt(x->v2);
   return sim->h_sound / speed; /* no speed: no limit */
 }
 

@@ -256,6 +256,25 @@ static int fill(const solving *s, const unknown *u)
   return SPH_OK;
 }
 
+/* Pairs exchange: without walls sum M x = sum b, whatever the error of x.  A constant makes it so,
+ * and what is conserved is so to rounding. */
+static void conserve(const solving *s, const unknown *u)
+{
+  struct sph_implicit *own = s->own;
+  const double *M = u->matrix->A.floor;
+  const long n = own->pattern.rows;
+  const int d = u->matrix->components;
+  for (int c = 0; c < u->components; c++) {
+    double missing = 0, mass = 0;
+    for (long row = 0; row < n; row++) {
+      const long at = place(s, u, row, c);
+      missing += own->b[at] - M[row * d] * own->x[at];
+      mass += M[row * d];
+    }
+    for (long row = 0; row < n; row++) own->x[place(s, u, row, c)] += missing / mass;
+  }
+}
+
 static int solve_linear(const solving *s, const unknown *u)
 {
   struct sph_implicit *own = s->own;
@@ -281,6 +300,7 @@ static int solve_linear(const solving *s, const unknown *u)
   s->stage->iterations += stats.last;
   if (status > 0)
     return sph_sim_admit_retry(s->sim, "implicit stage: %s", sph_linear_reason(u->solver));
+  if (!status && !u->meets_walls) conserve(s, u);
   return status;
 }
 
@@ -460,7 +480,7 @@ static int make_unknown(sph_sim *sim, int number, unsigned bits, int coupling)
   u->matrix->vector = vector;
   u->matrix->components = vector ? sim->dim : 1;
   if (!own->solver[vector])
-    own->solver[vector] = sph_linear_create(NULL, sim->threads, &sim->error);
+    own->solver[vector] = sph_linear_create(sim->integrator_def.linear, sim->threads, &sim->error);
   u->solver = own->solver[vector];
   if (!u->solver) return sim->error.status;
   int status = sph_sim_parts_of(sim, &u->part, bits, 0);

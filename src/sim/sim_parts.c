@@ -1,7 +1,8 @@
 /* Parts of f.  Each rate belongs to exactly one of explicit (slow), implicit and fast:
  *
  *   terms                  as set, else explicit
- *   dx/dt = v              with the pressure force, else explicit; and with it the acoustic limit
+ *   dx/dt = v              with the pressure force, else explicit; and with it the limits of steps
+ *                          by waves (where something makes them) and by motion
  *   work of pressure       heats with the pressure force, whose partner it is
  *
  * An evaluation of a part runs the phases that its terms read from, no others:
@@ -65,13 +66,14 @@ static void choose(const sph_sim *sim, sph_part *part, int piece)
                                                                        : SPH_PIECE_EXPLICIT;
     bits = bits_of(sim, number[piece]);
     part->called = called_of(sim, number[piece]);
-    part->positions = part->acoustic = piece == home;
+    part->positions = part->motion = piece == home;
   } else {
     if (piece == SPH_PIECE_DRIFT) bits = SPH_XSPH, part->called = 0;
     if (piece == SPH_PIECE_KICK) bits = ~(unsigned)SPH_XSPH;
     part->positions = piece != SPH_PIECE_KICK;
-    part->acoustic = piece != SPH_PIECE_DRIFT;
+    part->motion = piece != SPH_PIECE_DRIFT;
   }
+  part->acoustic = part->motion && ((loop & SPH_PRESSURE_FORCE) || sim->terms.pairs);
   part->gravity = sim->terms.uniform && (bits & SPH_UNIFORM);
   part->rates = loop & bits & SPH_PAIR_TERMS;
   if (sim->terms.summed) part->rates &= ~(unsigned)SPH_CONTINUITY;
