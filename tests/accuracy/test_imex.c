@@ -272,8 +272,8 @@ static sph_sim *slab(const char *method, double T_left, double T_right)
   return sim;
 }
 
-/* Sum of T over the particles, the largest distance from 10/11 of the difference over the first half
- * or from 300 K. */
+/* Sum of T over the particles, the largest distance from 10/11 of the difference over the first
+ * half, or from 300 K. */
 static double look(const sph_sim *sim, int insulated, double *sum)
 {
   double worst = 0;
