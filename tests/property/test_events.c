@@ -245,6 +245,73 @@ static void wet_and_dry(void **state)
   }
 }
 
+/* The front of a dam break, a maximum over particles that change: between the rows of a series of
+ * frames, five a step or more. */
+typedef struct series {
+  int n;
+  double t[20000], front[20000];
+} series;
+
+static int measure(void *ctx, sph_sim *sim, sph_error *error)
+{
+  series *s = ctx;
+  const sph_monitor front = {.name = "front", .type = "front"};
+  if (s->n >= 20000) return SPH_ERR_STATE;
+  s->t[s->n] = sph_sim_time(sim);
+  return sph_monitor_value(&front, sim, &s->front[s->n++], error);
+}
+
+static sph_sim *dam_break(const char *name)
+{
+  const double H = 1, c0 = 10 * sqrt(2 * g * H);
+  sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = H / 12});
+  sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){H, H}, 1000);
+  sph_group *tank = sph_group_create(sim, "tank", "wall");
+  sph_group_add_layers(tank, (double[]){0, 0}, (double[]){6 * H, 1.5 * H}, "y+", 1000);
+  sph_group_set_eos(water, sph_eos_tait(1000, c0, 7));
+  sph_group_set_boundary(tank, sph_boundary_adami());
+  sph_group_set_hydrostatic(water, 1, H, g);
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, sph_term_pressure());
+  sph_sim_add_term(sim, sph_term_viscosity_artificial(0.05, 0));
+  sph_sim_add_term(sim, sph_term_gravity((double[3]){0, -g, 0}));
+  sph_sim_set_integrator(sim, &(sph_integrator_def){.method = name});
+  return sim;
+}
+
+static void front_of_a_dam_break(void **state)
+{
+  (void)state;
+  static const char *const name[] = {"e0", "e1", "e2", "e3"};
+  static series s;
+  for (int k = 0; k < 2; k++) {
+    sph_sim *sim = dam_break(k ? "leapfrog" : NULL);
+    for (int e = 0; e < 4; e++)
+      sph_sim_add_event(sim, &(sph_event){.name = name[e],
+                                          .type = "front",
+                                          .threshold = 1.2 + 0.5 * e,
+                                          .once = 1});
+    s.n = 0;
+    sph_sim_add_output(sim, (sph_output){.interval = 1e-4, .frame = measure, .ctx = &s});
+    good(sim, sph_sim_run(sim, 0.7));
+    sph_sim_stats stats;
+    sph_sim_get_stats(sim, &stats);
+    for (int e = 0; e < 4; e++) {
+      double first, x = 1.2 + 0.5 * e;
+      int row = 1;
+      assert_int_equal(count_of(sim, e, &first, NULL), 1);
+      while (row < s.n - 1 && s.front[row] < x) row++;
+      double expected = s.t[row - 1] + (x - s.front[row - 1]) / (s.front[row] - s.front[row - 1]) *
+                                           (s.t[row] - s.t[row - 1]);
+      print_message("# front at %.1f: %.9f s, between frames %.9f s\n", x, first, expected);
+      assert_true(first > s.t[row - 1] && first <= s.t[row]);
+      assert_near(first, expected, 1e-7); /* 1e-4^2 a/(8 v) is 1e-8 */
+    }
+    assert_true(stats.step.steps < s.n / 5);
+    sph_sim_free(sim);
+  }
+}
+
 /* ---- how often ---- */
 
 static double from_time(void *ctx, sph_sim *sim) { return sph_sim_time(sim) - *(double *)ctx; }
@@ -649,6 +716,7 @@ int main(void)
       cmocka_unit_test(moments_are_exact),
       cmocka_unit_test(of_every_integrator),
       cmocka_unit_test(wet_and_dry),
+      cmocka_unit_test(front_of_a_dam_break),
       cmocka_unit_test(ends_of_steps_count_once),
       cmocka_unit_test(many_in_a_step),
       cmocka_unit_test(jumps),
