@@ -70,5 +70,6 @@ int main(int argc, char **argv)
   bench_integration();
   bench_tiles();
   bench_stability();
+  bench_linear();
   return 0;
 }

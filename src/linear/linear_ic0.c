@@ -8,78 +8,75 @@
 #include "linear_pcg.h"
 #include "memory.h"
 
-/* L by rows: columns in ascending order, the diagonal apart. */
-typedef struct factor {
-  long n, room_rows, room_entries;
-  long *start; /* [n + 1] */
-  long *next;  /* [n] scratch */
-  int *column;
-  double *value;    /* as long; the entries of A until L is made of them */
-  double *diagonal; /* [n] 1/L_ii */
-  double *work;     /* [n] zero between rows */
-} factor;
-
 typedef struct ic0 {
   sph_pcg pcg;
-  factor L;
+  sph_linear_factor L;
+  long room_rows, room_entries;
+  long *next;   /* [n] scratch */
+  double *work; /* [n] zero between rows */
 } ic0;
 
-static void factor_free(factor *L)
+static void factor_free(ic0 *s)
 {
-  sph_memory_free(L->start);
-  sph_memory_free(L->next);
-  sph_memory_free(L->column);
-  sph_memory_free(L->value);
-  sph_memory_free(L->diagonal);
-  sph_memory_free(L->work);
-  *L = (factor){0};
+  sph_memory_free(s->L.start);
+  sph_memory_free(s->L.column);
+  sph_memory_free(s->L.value);
+  sph_memory_free(s->L.diagonal);
+  sph_memory_free(s->next);
+  sph_memory_free(s->work);
+  s->L = (sph_linear_factor){0};
+  s->next = NULL;
+  s->work = NULL;
+  s->room_rows = s->room_entries = 0;
 }
 
-static int reserve(factor *L, long rows, long entries, sph_error *error)
+static int reserve(ic0 *s, long rows, long entries, sph_error *error)
 {
-  if (rows <= L->room_rows && entries <= L->room_entries) return SPH_OK;
-  factor_free(L);
+  sph_linear_factor *L = &s->L;
+  if (rows <= s->room_rows && entries <= s->room_entries) return SPH_OK;
+  factor_free(s);
   rows += rows / 8;
   entries += entries / 8;
   L->start = SPH_NEW(long, rows + 1, "incomplete factors", error);
-  L->next = SPH_NEW(long, rows, "incomplete factors", error);
   L->column = SPH_NEW(int, entries, "incomplete factors", error);
   L->value = SPH_NEW(double, entries, "incomplete factors", error);
   L->diagonal = SPH_NEW(double, rows, "incomplete factors", error);
-  L->work = SPH_NEW(double, rows, "incomplete factors", error);
-  if (!L->start || !L->next || !L->column || !L->value || !L->diagonal || !L->work) {
-    factor_free(L);
+  s->next = SPH_NEW(long, rows, "incomplete factors", error);
+  s->work = SPH_NEW(double, rows, "incomplete factors", error);
+  if (!L->start || !L->column || !L->value || !L->diagonal || !s->next || !s->work) {
+    factor_free(s);
     return SPH_ERR_MEMORY;
   }
-  L->room_rows = rows;
-  L->room_entries = entries;
+  s->room_rows = rows;
+  s->room_entries = entries;
   return SPH_OK;
 }
 
-/* The lower half of A, taken column by column (which are rows, too), so that rows come in order. */
-static void copy_lower(factor *L, const sph_csr *A)
+/* The lower half of A into L, taken column by column, as which its rows serve: so the columns of
+ * each row come in order. */
+static void copy_lower(ic0 *s, const sph_csr *A)
 {
+  sph_linear_factor *L = &s->L;
   L->n = A->n;
   L->start[0] = 0;
   for (long i = 0; i < A->n; i++) {
     long count = 0;
     for (long k = A->start[i]; k < A->start[i + 1]; k++) count += A->column[k] < i;
-    L->next[i] = L->start[i];
+    s->next[i] = L->start[i];
     L->start[i + 1] = L->start[i] + count;
   }
   for (long j = 0; j < A->n; j++)
     for (long k = A->start[j]; k < A->start[j + 1]; k++)
       if (A->column[k] > j) {
-        long to = L->next[A->column[k]]++;
+        long to = s->next[A->column[k]]++;
         L->column[to] = (int)j;
         L->value[to] = A->value[k];
       }
 }
 
-/* Row i of L from the rows above; 0 if its pivot is not > 0. */
-static int factor_row(factor *L, long i, double diagonal)
+/* Row i of L, in place of that of A, from the rows above; 0 if its pivot is not > 0. */
+static int factor_row(sph_linear_factor *L, double *w, long i, double diagonal)
 {
-  double *w = L->work;
   const long from = L->start[i], to = L->start[i + 1];
   for (long k = from; k < to; k++) w[L->column[k]] = L->value[k];
   for (long k = from; k < to; k++) {
@@ -97,19 +94,20 @@ static int factor_row(factor *L, long i, double diagonal)
   return diagonal > 0 && isfinite(diagonal);
 }
 
-static int factor_make(factor *L, const sph_csr *A, double raise)
+static int factor_make(ic0 *s, const sph_csr *A, double raise)
 {
-  copy_lower(L, A);
-  for (long i = 0; i < L->n; i++)
-    if (!factor_row(L, i, (1 + raise) * A->diagonal[i])) return 0;
+  copy_lower(s, A);
+  for (long i = 0; i < A->n; i++)
+    if (!factor_row(&s->L, s->work, i, (1 + raise) * A->diagonal[i])) return 0;
   return 1;
 }
 
 /* A number not above the smallest eigenvalue of P^-1 A: as F <= A, that of (F^-1/2 L)(F^-1/2 L)',
  * inverted, and that is bounded by the largest sums of the rows and of the columns of F^-1/2 L. */
-static double eigenvalue_bound(factor *L, const double *F)
+static double eigenvalue_bound(ic0 *s, const double *F)
 {
-  double rows = 0, columns = 0, *column = L->work;
+  const sph_linear_factor *L = &s->L;
+  double rows = 0, columns = 0, *column = s->work;
   for (long i = 0; i < L->n; i++) {
     const double f = 1 / sqrt(F[i]);
     double sum = f / L->diagonal[i];
@@ -128,44 +126,13 @@ static double eigenvalue_bound(factor *L, const double *F)
   return 1 / (rows * columns);
 }
 
-/* z = (L L')^-1 r */
-static inline __attribute__((always_inline)) void solve_columns(const sph_pcg *s, const int d)
-{
-  const factor *L = s->preconditioner;
-  double *z = s->z;
-  for (long i = 0; i < L->n; i++) {
-    double sum[SPH_PCG_COLUMNS];
-    for (int c = 0; c < d; c++) sum[c] = s->r[i * d + c];
-    for (long k = L->start[i]; k < L->start[i + 1]; k++)
-      for (int c = 0; c < d; c++) sum[c] -= L->value[k] * z[(long)L->column[k] * d + c];
-    for (int c = 0; c < d; c++) z[i * d + c] = sum[c] * L->diagonal[i];
-  }
-  for (long i = L->n - 1; i >= 0; i--) {
-    for (int c = 0; c < d; c++) z[i * d + c] *= L->diagonal[i];
-    for (long k = L->start[i]; k < L->start[i + 1]; k++)
-      for (int c = 0; c < d; c++) z[(long)L->column[k] * d + c] -= L->value[k] * z[i * d + c];
-  }
-}
-
-static void apply(const sph_pcg *s)
-{
-  switch (s->d) {
-  case 1: solve_columns(s, 1); break;
-  case 2: solve_columns(s, 2); break;
-  case 3: solve_columns(s, 3); break;
-  default: solve_columns(s, SPH_PCG_COLUMNS); break;
-  }
-}
-
 static int create(sph_linear *solver, sph_error *error)
 {
   ic0 *s = SPH_NEW(ic0, 1, "incomplete factors", error);
   if (!s) return SPH_ERR_MEMORY;
-  s->pcg.threads = solver->threads;
-  s->pcg.apply = apply;
-  s->pcg.preconditioner = &s->L;
   solver->own = s;
-  return SPH_OK;
+  s->pcg.factor = &s->L;
+  return sph_linear_pcg_create(&s->pcg, solver, error);
 }
 
 static int prepare(sph_linear *solver, const sph_csr *A, int change, sph_error *error)
@@ -174,15 +141,15 @@ static int prepare(sph_linear *solver, const sph_csr *A, int change, sph_error *
   int made = 0;
   (void)change;
   int status = sph_linear_pcg_prepare(&s->pcg, A, error);
-  if (!status) status = reserve(&s->L, A->n, A->start[A->n] / 2, error);
+  if (!status) status = reserve(s, A->n, A->start[A->n] / 2, error);
   if (status) return status;
   solver->stats.factorisations++;
   for (double raise = 0; !made && raise<2; raise = raise> 0 ? 4 * raise : 1e-2)
-    made = factor_make(&s->L, A, raise);
+    made = factor_make(s, A, raise);
   if (!made)
     return sph_linear_refuse(solver, "no incomplete factor exists: the matrix is not finite, or "
                                      "far from positive definite");
-  s->pcg.mu = 0.9 * eigenvalue_bound(&s->L, A->floor);
+  s->pcg.mu = 0.9 * eigenvalue_bound(s, A->floor);
   return SPH_OK;
 }
 
@@ -198,7 +165,7 @@ static void done(sph_linear *solver)
   ic0 *s = solver->own;
   if (!s) return;
   sph_linear_pcg_free(&s->pcg);
-  factor_free(&s->L);
+  factor_free(s);
   sph_memory_free(s);
 }
 

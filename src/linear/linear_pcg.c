@@ -21,149 +21,42 @@
 enum {
   CHUNK = 1024,        /* rows */
   PARALLEL_MIN = 4096, /* rows from which on threads pay */
-  MOST = SPH_PCG_COLUMNS
+  MOST = SPH_LINEAR_WIDTH
 };
 /* mu is somewhat less than the bound of the eigenvalue: uniform x may attain that, and D is to
  * stay > 0. */
 static const double BELOW = 0.9;
 
-/* ---- kernels over rows from..to; the compiler makes a copy for each d; sum[d] is added to */
-
-#define KERNEL static inline __attribute__((always_inline)) void
 #define COLUMNS(c) for (int c = 0; c < d; c++)
 
-/* q = A x of one row */
-KERNEL row(const sph_csr *A, const int d, const double *x, long i, double q[MOST])
-{
-  COLUMNS(c) q[c] = A->diagonal[i] * x[i * d + c];
-  for (long k = A->start[i]; k < A->start[i + 1]; k++)
-    COLUMNS(c) q[c] += A->value[k] * x[(long)A->column[k] * d + c];
-}
-
-/* r = b - A x, b being where r will be */
-KERNEL residual(const sph_pcg *s, const int d, long from, long to, double *sum)
-{
-  (void)sum;
-  for (long i = from; i < to; i++) {
-    double q[MOST];
-    row(s->A, d, s->x, i, q);
-    COLUMNS(c) s->r[i * d + c] -= q[c];
-  }
-}
-
-/* q = A p; sum of p.q */
-KERNEL product(const sph_pcg *s, const int d, long from, long to, double *sum)
-{
-  for (long i = from; i < to; i++) {
-    double q[MOST];
-    row(s->A, d, s->p, i, q);
-    COLUMNS(c) s->q[i * d + c] = q[c];
-    COLUMNS(c) sum[c] += s->p[i * d + c] * q[c];
-  }
-}
-
-/* x += alpha p, r -= alpha q */
-KERNEL step(const sph_pcg *s, const int d, long from, long to, double *sum)
-{
-  (void)sum;
-  for (long i = from; i < to; i++) {
-    COLUMNS(c) s->x[i * d + c] += s->alpha[c] * s->p[i * d + c];
-    COLUMNS(c) s->r[i * d + c] -= s->alpha[c] * s->q[i * d + c];
-  }
-}
-
-/* sum of r.z; four partial sums, which need not wait for each other */
-KERNEL dot(const sph_pcg *s, const int d, long from, long to, double *sum)
-{
-  double part[4][MOST] = {{0}};
-  long i = from;
-  for (; i + 4 <= to; i += 4)
-    for (int u = 0; u < 4; u++)
-      COLUMNS(c) part[u][c] += s->r[(i + u) * d + c] * s->z[(i + u) * d + c];
-  for (int u = 0; i + u < to; u++)
-    COLUMNS(c) part[u][c] += s->r[(i + u) * d + c] * s->z[(i + u) * d + c];
-  COLUMNS(c) sum[c] += (part[0][c] + part[2][c]) + (part[1][c] + part[3][c]);
-}
-
-/* z = r/diagonal; sum of r.z */
-KERNEL jacobi(const sph_pcg *s, const int d, long from, long to, double *sum)
-{
-  for (long i = from; i < to; i++) COLUMNS(c) s->z[i * d + c] = s->inverse[i] * s->r[i * d + c];
-  dot(s, d, from, to, sum);
-}
-
-KERNEL step_jacobi(const sph_pcg *s, const int d, long from, long to, double *sum)
-{
-  step(s, d, from, to, sum);
-  jacobi(s, d, from, to, sum);
-}
-
-/* p = z + beta p */
-KERNEL turn(const sph_pcg *s, const int d, long from, long to, double *sum)
-{
-  (void)sum;
-  for (long i = from; i < to; i++)
-    COLUMNS(c) s->p[i * d + c] = s->z[i * d + c] + s->beta[c] * s->p[i * d + c];
-}
-
-static void run(const sph_pcg *s, void (*chunk)(const sph_pcg *, long, long, double *),
-                double total[MOST])
+/* A loop over all chunks; the sums of all rows, if it has some, in total. */
+static void run(const sph_pcg *s, sph_linear_loop *loop, double total[MOST])
 {
 #pragma omp parallel for num_threads(s->threads) schedule(static) if (s->n >= PARALLEL_MIN)
   for (long k = 0; k < s->chunks; k++) {
     double sum[MOST] = {0};
     long end = (k + 1) * CHUNK < s->n ? (k + 1) * CHUNK : s->n;
-    chunk(s, k * CHUNK, end, sum);
-    for (int c = 0; c < s->d; c++) s->part[k * MOST + c] = sum[c];
+    loop(&s->v, k * CHUNK, end, sum);
+    for (int c = 0; c < MOST; c++) s->part[k * MOST + c] = sum[c];
   }
-  for (int c = 0; c < s->d; c++) total[c] = 0;
+  for (int c = 0; c < MOST; c++) total[c] = 0;
   for (long k = 0; k < s->chunks; k++)
-    for (int c = 0; c < s->d; c++) total[c] += s->part[k * MOST + c];
+    for (int c = 0; c < MOST; c++) total[c] += s->part[k * MOST + c];
 }
 
-/* run_<kernel>: over all chunks, with the sums of all rows in total[d]. */
-#define RUN(kernel)                                                             \
-  static void chunk_##kernel(const sph_pcg *s, long from, long to, double *sum) \
-  {                                                                             \
-    switch (s->d) {                                                             \
-    case 1: kernel(s, 1, from, to, sum); break;                                 \
-    case 2: kernel(s, 2, from, to, sum); break;                                 \
-    case 3: kernel(s, 3, from, to, sum); break;                                 \
-    default: kernel(s, MOST, from, to, sum); break;                             \
-    }                                                                           \
-  }                                                                             \
-  static void run_##kernel(const sph_pcg *s, double *total) { run(s, chunk_##kernel, total); }
-
-RUN(residual)
-RUN(product)
-RUN(step)
-RUN(dot)
-RUN(jacobi)
-RUN(step_jacobi)
-RUN(turn)
-
-/* z = P^-1 r and rho = r.z */
-static void precondition(const sph_pcg *s, double rho[MOST])
+/* x += alpha p, r -= alpha q, z = P^-1 r, rho = r.z */
+static void step(const sph_pcg *s, double rho[MOST])
 {
-  if (!s->apply) {
-    run_jacobi(s, rho);
+  if (!s->factor) {
+    run(s, s->loops->step_jacobi, rho);
     return;
   }
-  s->apply(s);
-  run_dot(s, rho);
+  run(s, s->loops->step, rho);
+  s->loops->solve(s->factor, s->v.r, s->v.z);
+  run(s, s->loops->dot, rho);
 }
 
-static void step_and_precondition(const sph_pcg *s, double rho[MOST])
-{
-  if (!s->apply) {
-    run_step_jacobi(s, rho);
-    return;
-  }
-  run_step(s, rho);
-  precondition(s, rho);
-}
-
-/* ---- one run: up to SPH_PCG_COLUMNS columns */
+/* ---- one run: up to SPH_LINEAR_WIDTH columns */
 
 typedef struct estimate {
   double scale[MOST]; /* max w^2/F */
@@ -181,7 +74,7 @@ static double estimate_get(const estimate *error, const double rho[MOST], int d)
 static void estimate_start(estimate *error, const sph_pcg *s, const sph_linear_task *task,
                            int first)
 {
-  const double *F = s->A->floor;
+  const double *F = task->A->floor;
   for (int c = 0; c < s->d; c++) {
     const double *w = task->weight ? task->weight[first + c] : NULL;
     double most = 0;
@@ -212,10 +105,9 @@ static int iterate(sph_pcg *s, sph_linear *solver, estimate *error)
 {
   const int d = s->d;
   double rho[MOST], pq[MOST], next[MOST], now;
-  run_residual(s, next);
-  COLUMNS(c) s->beta[c] = 0;
-  precondition(s, rho);
-  long most = most_iterations(s, fmax(1, estimate_get(error, rho, d) / error->allowed));
+  run(s, s->loops->residual, rho);
+  step(s, rho); /* with alpha = 0 */
+  const long most = most_iterations(s, fmax(1, estimate_get(error, rho, d) / error->allowed));
   for (long k = 0; !((now = estimate_get(error, rho, d)) <= error->allowed); k++) {
     if (!isfinite(now))
       return sph_linear_refuse(solver, "a number is not finite: the error is bounded by %g", now);
@@ -223,22 +115,22 @@ static int iterate(sph_pcg *s, sph_linear *solver, estimate *error)
       return sph_linear_refuse(
           solver, "%ld iterations were not enough: the error is bounded by %g times the tolerance",
           k, sqrt(now / error->allowed));
-    run_turn(s, next);
-    run_product(s, pq);
+    run(s, s->loops->turn, next);
+    run(s, s->loops->product, pq);
     COLUMNS(c)
     {
       int done = rho[c] <= DBL_MIN; /* of this column there is nothing left to improve */
       if (!done && !(pq[c] > 0 && isfinite(pq[c]))) return not_definite(solver, pq[c], rho[c], c);
-      s->alpha[c] = done ? 0 : rho[c] / pq[c];
+      s->v.alpha[c] = done ? 0 : rho[c] / pq[c];
     }
-    step_and_precondition(s, next);
+    step(s, next);
     solver->stats.iterations++;
     solver->stats.last++;
     COLUMNS(c)
     {
-      double D = fmax(error->g[c] - s->alpha[c], 0);
-      s->beta[c] = rho[c] <= DBL_MIN ? 0 : next[c] / rho[c];
-      error->g[c] = D > 0 ? D / (s->mu * D + s->beta[c]) : 0;
+      double D = fmax(error->g[c] - s->v.alpha[c], 0);
+      s->v.beta[c] = rho[c] <= DBL_MIN ? 0 : next[c] / rho[c];
+      error->g[c] = D > 0 ? D / (s->mu * D + s->v.beta[c]) : 0;
       rho[c] = next[c];
     }
   }
@@ -247,25 +139,36 @@ static int iterate(sph_pcg *s, sph_linear *solver, estimate *error)
 
 static void interleave(const sph_pcg *s, double *to, const double *const *from)
 {
-  for (long i = 0; i < s->n; i++)
-    for (int c = 0; c < s->d; c++) to[i * s->d + c] = from[c][i];
+  for (long i = 0; i < s->n; i++) {
+    for (int c = 0; c < s->d; c++) to[i * s->width + c] = from[c][i];
+    for (int c = s->d; c < s->width; c++) to[i * s->width + c] = 0;
+  }
+}
+
+/* Columns first .. first + d - 1, into the vectors; p and q are zero. */
+static void load(sph_pcg *s, const sph_linear_task *task, int first)
+{
+  s->d = task->columns - first < MOST ? task->columns - first : MOST;
+  s->width = sph_linear_loop_width(s->d);
+  s->loops = sph_linear_loop_get(s->isa, s->width);
+  interleave(s, s->v.r, task->b + first);
+  interleave(s, s->v.x, (const double *const *)task->x + first);
+  memset(s->v.p, 0, (size_t)(s->n * s->width) * sizeof *s->v.p);
+  memset(s->v.q, 0, (size_t)(s->n * s->width) * sizeof *s->v.q);
+  for (int c = 0; c < MOST; c++) s->v.alpha[c] = s->v.beta[c] = 0;
 }
 
 int sph_linear_pcg_solve(sph_pcg *s, sph_linear *solver, const sph_linear_task *task)
 {
   int status = SPH_OK;
-  s->A = task->A;
+  s->v.A = task->A;
   for (int first = 0; !status && first < task->columns; first += MOST) {
     estimate error;
-    double *const *x = task->x + first;
-    s->d = task->columns - first < MOST ? task->columns - first : MOST;
-    memset(s->p, 0, (size_t)(s->n * s->d) * sizeof *s->p);
-    interleave(s, s->r, task->b + first);
-    interleave(s, s->x, (const double *const *)x);
+    load(s, task, first);
     estimate_start(&error, s, task, first);
     status = iterate(s, solver, &error);
     for (long i = 0; !status && i < s->n; i++)
-      for (int c = 0; c < s->d; c++) x[c][i] = s->x[i * s->d + c];
+      for (int c = 0; c < s->d; c++) task->x[first + c][i] = s->v.x[i * s->width + c];
   }
   return status;
 }
@@ -276,18 +179,26 @@ static int reserve(sph_pcg *s, long rows, sph_error *error)
   sph_linear_pcg_free(s);
   rows += rows / 8;
   s->inverse = SPH_NEW(double, rows, "inverse of a diagonal", error);
-  s->x = SPH_NEW(double, rows *MOST, "conjugate gradients", error);
-  s->r = SPH_NEW(double, rows *MOST, "conjugate gradients", error);
-  s->z = SPH_NEW(double, rows *MOST, "conjugate gradients", error);
-  s->p = SPH_NEW(double, rows *MOST, "conjugate gradients", error);
-  s->q = SPH_NEW(double, rows *MOST, "conjugate gradients", error);
+  s->v.x = SPH_NEW(double, rows *MOST, "conjugate gradients", error);
+  s->v.r = SPH_NEW(double, rows *MOST, "conjugate gradients", error);
+  s->v.z = SPH_NEW(double, rows *MOST, "conjugate gradients", error);
+  s->v.p = SPH_NEW(double, rows *MOST, "conjugate gradients", error);
+  s->v.q = SPH_NEW(double, rows *MOST, "conjugate gradients", error);
   s->part = SPH_NEW(double, (rows / CHUNK + 1) * MOST, "partial sums", error);
-  if (!s->inverse || !s->x || !s->r || !s->z || !s->p || !s->q || !s->part) {
+  if (!s->inverse || !s->v.x || !s->v.r || !s->v.z || !s->v.p || !s->v.q || !s->part) {
     sph_linear_pcg_free(s);
     return SPH_ERR_MEMORY;
   }
+  s->v.inverse = s->inverse;
   s->room = rows;
   return SPH_OK;
+}
+
+int sph_linear_pcg_create(sph_pcg *s, const sph_linear *solver, sph_error *error)
+{
+  s->threads = solver->threads;
+  s->isa = sph_cpu_isa(NULL, error);
+  return s->isa < 0 ? SPH_ERR_ARGUMENT : SPH_OK;
 }
 
 int sph_linear_pcg_prepare(sph_pcg *s, const sph_csr *A, sph_error *error)
@@ -308,13 +219,14 @@ int sph_linear_pcg_prepare(sph_pcg *s, const sph_csr *A, sph_error *error)
 void sph_linear_pcg_free(sph_pcg *s)
 {
   sph_memory_free(s->inverse);
-  sph_memory_free(s->x);
-  sph_memory_free(s->r);
-  sph_memory_free(s->z);
-  sph_memory_free(s->p);
-  sph_memory_free(s->q);
+  sph_memory_free(s->v.x);
+  sph_memory_free(s->v.r);
+  sph_memory_free(s->v.z);
+  sph_memory_free(s->v.p);
+  sph_memory_free(s->v.q);
   sph_memory_free(s->part);
-  s->inverse = s->x = s->r = s->z = s->p = s->q = s->part = NULL;
+  s->v = (sph_linear_vectors){0};
+  s->inverse = s->part = NULL;
   s->room = 0;
 }
 
@@ -324,9 +236,8 @@ static int create(sph_linear *solver, sph_error *error)
 {
   sph_pcg *s = SPH_NEW(sph_pcg, 1, "conjugate gradients", error);
   if (!s) return SPH_ERR_MEMORY;
-  s->threads = solver->threads;
   solver->own = s;
-  return SPH_OK;
+  return sph_linear_pcg_create(s, solver, error);
 }
 
 static int prepare(sph_linear *solver, const sph_csr *A, int change, sph_error *error)

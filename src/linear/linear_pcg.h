@@ -2,24 +2,23 @@
 #ifndef SPH_LINEAR_PCG_H
 #define SPH_LINEAR_PCG_H
 #include "linear_data.h"
-
-enum { SPH_PCG_COLUMNS = 4 }; /* right-hand sides of one run; more take several */
+#include "linear_loops.h"
 
 typedef struct sph_pcg {
-  int threads, d;            /* d: columns of the run */
-  const sph_csr *A;          /* of the run */
-  long n, chunks;            /* of the matrix that was prepared */
-  long room;                 /* rows that fit into the arrays */
-  double mu;                 /* smallest eigenvalue of P^-1 A, or less */
-  double *inverse;           /* [n] 1/diagonal */
-  double *x, *r, *z, *p, *q; /* [n * d] */
-  double *part;              /* [chunks * d] */
-  double alpha[SPH_PCG_COLUMNS], beta[SPH_PCG_COLUMNS];
-  /* z = P^-1 r for d columns; NULL: P is the diagonal */
-  void (*apply)(const struct sph_pcg *s);
-  void *preconditioner; /* what apply knows */
+  int threads, isa;
+  int d;                         /* columns of the run */
+  int width;                     /* numbers a row takes */
+  const sph_linear_loops *loops; /* of the width */
+  long n, chunks;                /* of the matrix that was prepared */
+  long room;                     /* rows that fit into the arrays */
+  double mu;                     /* smallest eigenvalue of P^-1 A, or less */
+  double *inverse;               /* [n] 1/diagonal */
+  sph_linear_vectors v;
+  double *part;                    /* [chunks * SPH_LINEAR_WIDTH] */
+  const sph_linear_factor *factor; /* P = L L'; NULL: P is the diagonal */
 } sph_pcg;
 
+int sph_linear_pcg_create(sph_pcg *s, const sph_linear *solver, sph_error *error);
 /* Room for n rows, the inverse of the diagonal, mu for P = the diagonal. */
 int sph_linear_pcg_prepare(sph_pcg *s, const sph_csr *A, sph_error *error);
 int sph_linear_pcg_solve(sph_pcg *s, sph_linear *solver, const sph_linear_task *task);

@@ -1,0 +1,17 @@
+#include "linear_loops.h"
+
+#define DECLARE(isa) extern const sph_linear_table sph_linear_loops_##isa;
+SPH_ISA_BUILT(DECLARE)
+
+static const sph_linear_table *const tables[SPH_ISA_COUNT] = {
+#define ROW(isa) [SPH_ISA_##isa] = &sph_linear_loops_##isa,
+    SPH_ISA_BUILT(ROW)
+#undef ROW
+};
+
+int sph_linear_loop_width(int d) { return d == 3 ? 4 : d; }
+
+const sph_linear_loops *sph_linear_loop_get(int isa, int width)
+{
+  return &tables[isa]->width[width];
+}
