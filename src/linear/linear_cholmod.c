@@ -52,8 +52,6 @@ static int create(sph_linear *solver, sph_error *error)
   s->common.error_handler = NULL;
   s->common.supernodal = solver->method->kind;
   s->common.final_ll = 1; /* LL', not LDL', which takes indefinite matrices */
-  s->common.nmethods = 1;
-  s->common.method[0].ordering = CHOLMOD_AMD;
   s->common.quick_return_if_not_posdef = 1;
   s->common.useGPU = 0;
 #if CHOLMOD_MAIN_VERSION >= 5
