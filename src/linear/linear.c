@@ -35,22 +35,27 @@ static const sph_linear_method *unknown(const char *name, sph_error *error)
 
 static const sph_linear_method *find(const char *name, sph_error *error)
 {
-  if (!name) return table[0];
+  if (!name) return &sph_linear_auto;
   for (int k = 0; k < METHODS; k++)
     if (!strcmp(name, table[k]->name)) return table[k];
   return unknown(name, error);
 }
 
-sph_linear *sph_linear_create(const char *name, int threads, sph_error *error)
+sph_linear *sph_linear_create_method(const sph_linear_method *method, int threads, sph_error *error)
 {
-  const sph_linear_method *method = find(name, error);
-  sph_linear *solver = method ? SPH_NEW(sph_linear, 1, "a linear solver", error) : NULL;
+  sph_linear *solver = SPH_NEW(sph_linear, 1, "a linear solver", error);
   if (!solver) return NULL;
-  solver->method = method;
+  solver->method = solver->used = method;
   solver->threads = threads > 1 ? threads : 1;
   if (!method->create(solver, error)) return solver;
   sph_linear_free(solver);
   return NULL;
+}
+
+sph_linear *sph_linear_create(const char *name, int threads, sph_error *error)
+{
+  const sph_linear_method *method = find(name, error);
+  return method ? sph_linear_create_method(method, threads, error) : NULL;
 }
 
 int sph_linear_refuse(sph_linear *solver, const char *format, ...)
@@ -88,16 +93,17 @@ static int check_diagonal(sph_linear *solver, const sph_csr *A)
 static int prepare(sph_linear *solver, const sph_linear_task *task, sph_error *error)
 {
   int change = SPH_LINEAR_PATTERN;
-  if (solver->prepared && solver->pattern == task->pattern)
-    change = solver->values == task->values ? SPH_LINEAR_SAME : SPH_LINEAR_VALUES;
-  if (change == SPH_LINEAR_SAME) return SPH_OK;
-  solver->prepared = 0;
+  if (solver->has_pattern && solver->pattern == task->pattern) {
+    if (solver->has_values && solver->values == task->values) return SPH_OK;
+    change = SPH_LINEAR_VALUES;
+  }
+  solver->has_pattern = solver->has_values = 0;
   int status = check_diagonal(solver, task->A);
   if (!status) status = solver->method->prepare(solver, task->A, change, error);
   if (status) return status;
   solver->pattern = task->pattern;
   solver->values = task->values;
-  solver->prepared = 1;
+  solver->has_pattern = solver->has_values = 1;
   return SPH_OK;
 }
 
@@ -123,6 +129,8 @@ int sph_linear_solve(sph_linear *solver, const sph_linear_task *task, sph_error 
   if (!status) solver->stats.solves++;
   return status;
 }
+
+const char *sph_linear_used(const sph_linear *solver) { return solver->used->name; }
 
 const char *sph_linear_reason(const sph_linear *solver) { return solver->reason; }
 

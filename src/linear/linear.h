@@ -41,6 +41,9 @@ sph_linear *sph_linear_create(const char *name, int threads, sph_error *error);
  * ran out; sph_linear_reason tells, x is arbitrary.  < 0: recorded. */
 int sph_linear_solve(sph_linear *solver, const sph_linear_task *task, sph_error *error);
 
+/* The method of the last solve: that of create, or the one that "auto" took. */
+const char *sph_linear_used(const sph_linear *solver);
+
 /* Why the last solve returned SPH_RETRY, with its numbers; "" if it did not.  Never NULL. */
 const char *sph_linear_reason(const sph_linear *solver);
 

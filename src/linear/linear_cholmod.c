@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "columns.h"
+#include "linear_cholmod.h"
 #include "linear_data.h"
 #include "memory.h"
 
@@ -60,17 +61,26 @@ static int create(sph_linear *solver, sph_error *error)
   return SPH_OK;
 }
 
-static int prepare(sph_linear *solver, const sph_csr *A, int change, sph_error *error)
+/* Takes A over and orders it. */
+static int analyse(sph_linear *solver, const sph_csr *A, sph_error *error)
 {
   cholesky *s = solver->own;
   if (sph_columns_set(&s->upper, A, 1, error)) return SPH_ERR_MEMORY;
   cholmod_sparse upper = view(s);
-  if (change == SPH_LINEAR_PATTERN || !s->L) {
-    cholmod_l_free_factor(&s->L, &s->common);
-    s->L = cholmod_l_analyze(&upper, &s->common);
-    if (!s->L) return out_of_memory(s, A, error);
-    solver->stats.analyses++;
-  }
+  cholmod_l_free_factor(&s->L, &s->common);
+  s->L = cholmod_l_analyze(&upper, &s->common);
+  if (!s->L) return out_of_memory(s, A, error);
+  solver->stats.analyses++;
+  return SPH_OK;
+}
+
+static int prepare(sph_linear *solver, const sph_csr *A, int change, sph_error *error)
+{
+  cholesky *s = solver->own;
+  int status = change == SPH_LINEAR_PATTERN ? analyse(solver, A, error)
+                                            : sph_columns_set(&s->upper, A, 1, error);
+  if (status) return status;
+  cholmod_sparse upper = view(s);
   cholmod_l_factorize(&upper, s->L, &s->common);
   solver->stats.factorisations++;
   if (s->common.status == CHOLMOD_NOT_POSDEF)
@@ -110,6 +120,13 @@ static void done(sph_linear *solver)
   sph_memory_free(s);
 }
 
+const sph_linear_method sph_linear_cholmod = {.name = "cholmod",
+                                              .kind = CHOLMOD_AUTO,
+                                              .create = create,
+                                              .prepare = prepare,
+                                              .solve = solve,
+                                              .free = done};
+
 const sph_linear_method sph_linear_cholmod_supernodal = {.name = "cholmod-supernodal",
                                                          .kind = CHOLMOD_SUPERNODAL,
                                                          .create = create,
@@ -123,3 +140,17 @@ const sph_linear_method sph_linear_cholmod_simplicial = {.name = "cholmod-simpli
                                                          .prepare = prepare,
                                                          .solve = solve,
                                                          .free = done};
+
+int sph_linear_cholmod_analyse(sph_linear *solver, const sph_linear_task *task, double *flops,
+                               double *entries, sph_error *error)
+{
+  const cholesky *s = solver->own;
+  solver->has_pattern = solver->has_values = 0;
+  int status = analyse(solver, task->A, error);
+  if (status) return status;
+  solver->pattern = task->pattern;
+  solver->has_pattern = 1;
+  *flops = s->common.fl;
+  *entries = s->common.lnz;
+  return SPH_OK;
+}

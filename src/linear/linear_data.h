@@ -5,16 +5,17 @@
 
 struct sph_linear {
   const struct sph_linear_method *method;
-  void *own; /* the method's */
+  const struct sph_linear_method *used; /* of the last solve: another one with "auto" */
+  void *own;                            /* the method's */
   int threads;
   long pattern, values; /* of the matrix that was prepared last */
-  int prepared;         /* pattern and values hold */
+  int has_pattern, has_values;
   sph_linear_stats stats;
   char reason[200];
 };
 
 /* What is new in a matrix. */
-enum sph_linear_change { SPH_LINEAR_SAME, SPH_LINEAR_VALUES, SPH_LINEAR_PATTERN };
+enum sph_linear_change { SPH_LINEAR_VALUES, SPH_LINEAR_PATTERN };
 
 /* A row of the table of methods.  SPH_RETRY comes with a reason (sph_linear_refuse). */
 typedef struct sph_linear_method {
@@ -28,7 +29,11 @@ typedef struct sph_linear_method {
 
 extern const sph_linear_method sph_linear_pcg_jacobi, sph_linear_pcg_ic0;
 extern const sph_linear_method sph_linear_cholmod_supernodal, sph_linear_cholmod_simplicial;
-extern const sph_linear_method sph_linear_klu;
+extern const sph_linear_method sph_linear_klu, sph_linear_auto;
+
+/* As sph_linear_create, of a method that need not stand in the table. */
+sph_linear *sph_linear_create_method(const sph_linear_method *method, int threads,
+                                     sph_error *error);
 
 /* Writes down a reason; returns SPH_RETRY. */
 int sph_linear_refuse(sph_linear *solver, const char *format, ...) SPH_PRINTF(2, 3);

@@ -1,5 +1,5 @@
 /* Every allocation of matrices and linear solvers fails once, ours and those of CHOLMOD and KLU:
- * it is told, nothing leaks (under ASan or valgrind), the next attempt is as if it had not been. */
+ * it is told, nothing leaks (under ASan or valgrind), the next attempt gives the solution. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@
 #include "failing.h"
 #include "linear.h"
 
-enum { MOST = 256, COLUMNS = 6 };
+enum { MOST = 256, COLUMNS = 6, FROZEN = 60 /* solves after which auto has factors */ };
 
 static int fails(void) { return ++calls == fail_at; }
 static void *failing_malloc(size_t size) { return fails() ? NULL : malloc(size); }
@@ -65,7 +65,8 @@ static int live(const char *name, double *sum)
   sph_linear *solver = sph_linear_create(name, 2, &error);
   int status = error.status;
   if (solver) status = solve(solver, &small, 2, &error);
-  if (!status) status = solve(solver, &large, COLUMNS, &error);
+  for (int k = 0; !status && k < (strcmp(name, "auto") ? 1 : FROZEN); k++)
+    status = solve(solver, &large, COLUMNS, &error);
   if (status) {
     assert_int_equal(status, SPH_ERR_MEMORY);
     assert_int_equal(error.status, SPH_ERR_MEMORY);
@@ -98,12 +99,12 @@ static void each_allocation_of_a_solver(void **state)
       fail_at = k;
       int status = live(sph_linear_name(m), &sum);
       told += status != SPH_OK;
-      if ((k > 2 || !status) &&
-          sum != right) /* the first two are of create: no solver, no solution */
+      /* The first two are of create: no solver, no solution. */
+      if ((k > 2 || !status) && !(fabs(sum - right) < 1e-6 * fabs(right)))
         fail_msg("%s: after allocation %ld of %ld failed: %g, not %g", sph_linear_name(m), k, all,
                  sum, right);
     }
-    if (told < all - 2) /* KLU goes on if it cannot shrink an array */
+    if (told < all - 9) /* KLU need not shrink arrays, nor CHOLMOD have an order of METIS */
       fail_msg("%s: of %ld failures %ld were told", sph_linear_name(m), all, told);
   }
   sph_csr_free(&small);
