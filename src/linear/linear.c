@@ -10,9 +10,12 @@
 #include "memory.h"
 #include "name.h"
 
-static const sph_linear_method *const table[] = {&sph_linear_pcg_jacobi, &sph_linear_pcg_ic0,
+static const sph_linear_method *const table[] = {&sph_linear_auto,
+                                                 &sph_linear_pcg_jacobi,
+                                                 &sph_linear_pcg_ic0,
                                                  &sph_linear_cholmod_supernodal,
-                                                 &sph_linear_cholmod_simplicial, &sph_linear_klu};
+                                                 &sph_linear_cholmod_simplicial,
+                                                 &sph_linear_klu};
 enum { METHODS = sizeof table / sizeof table[0] };
 
 const char *sph_linear_name(int k) { return k >= 0 && k < METHODS ? table[k]->name : NULL; }

@@ -335,6 +335,70 @@ static void guesses_count(void **state)
   sph_csr_free(&p.A);
 }
 
+/* The bound of the error is not far above it: on average within a factor of 10. */
+static void bounds_are_close(void **state)
+{
+  double sum = 0;
+  (void)state;
+  sph_linear *solver = create("pcg-jacobi", 1);
+  spd_make(&p.A, 2, 20, 1e2, 3);
+  for (int k = 1; k <= 6; k++) {
+    fill(3, 2);
+    for (int c = 0; c < 3; c++)
+      for (long i = 0; i < p.A.n; i++) p.weight[c][i] = sqrt(p.A.floor[i]);
+    solve_dense();
+    const double tolerance = pow(10, -k);
+    assert_int_equal(solve(solver, 1, 1, tolerance), SPH_OK);
+    assert_true(weighted_error() <= tolerance);
+    sum += log10(weighted_error() / tolerance);
+  }
+  if (sum < -6) fail_msg("error / tolerance is %g on average", pow(10, sum / 6));
+  sph_linear_free(solver);
+  sph_csr_free(&p.A);
+}
+
+/* Solves `count` times; the values or the pattern change each time, or they do not. */
+static const char *after(sph_linear *solver, int count, int values, int pattern)
+{
+  static long number = 100;
+  number++;
+  for (int k = 0; k < count; k++) {
+    number += values || pattern;
+    for (long i = 0; i < p.A.n; i++) p.x[0][i] = 0;
+    if (solve(solver, pattern ? number : 1, number, 1e-6))
+      fail_msg("%s", sph_linear_reason(solver));
+    if (!(weighted_error() < 1e-6)) fail_msg("%s: error", sph_linear_used(solver));
+  }
+  return sph_linear_used(solver);
+}
+
+/* What "auto" takes for dim, condition and a matrix that stays (0), or changes its values (1), or
+ * its pattern (2). */
+static void auto_takes(const char *method, int dim, double condition, int change, int count)
+{
+  sph_linear *solver = create("auto", 1);
+  spd_make(&p.A, dim, dim == 1 ? 300 : 17, condition, 3);
+  fill(1, 2);
+  solve_dense();
+  const char *used = after(solver, count, change == 1, change == 2);
+  if (strcmp(used, method))
+    fail_msg("%dD, condition %g, change %d: %s, not %s", dim, condition, change, used, method);
+  sph_linear_free(solver);
+}
+
+static void auto_counts(void **state)
+{
+  (void)state;
+  auto_takes("pcg-jacobi", 1, 10, 2, 60);
+  auto_takes("pcg-ic0", 1, 1e4, 2, 60);
+  auto_takes("pcg-ic0", 1, 1e4, 0, 1);
+  auto_takes("cholmod", 1, 1e4, 0, 60);
+  auto_takes("pcg-jacobi", 2, 1e2, 2, 60);
+  auto_takes("pcg-jacobi", 2, 1e4, 0, 1);
+  auto_takes("cholmod", 2, 1e4, 0, 60);
+  sph_csr_free(&p.A);
+}
+
 static void names(void **state)
 {
   sph_error error = {0};
@@ -394,6 +458,8 @@ int main(void)
       cmocka_unit_test(refused),
       cmocka_unit_test(same_bits_for_any_number_of_threads),
       cmocka_unit_test(guesses_count),
+      cmocka_unit_test(bounds_are_close),
+      cmocka_unit_test(auto_counts),
       cmocka_unit_test(names),
       cmocka_unit_test(bad_tasks),
       cmocka_unit_test(matrices_grow),
