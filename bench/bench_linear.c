@@ -1,11 +1,11 @@
 /* Linear solvers on the matrices of implicit viscosity and conduction, M + gamma L, L as of
  * Brookshaw's Laplacian: periodic jittered lattices, Wendland C2, h = 1.5 dx, as many right-hand
- * sides as dimensions.  The condition number is bounded by the largest row sum, |row|/m.
+ * sides as dimensions.  The condition number is bounded by the largest row sum of |A| over m.
  *
  * Three figures a method: `pattern`, the first solve; `values`, one with new values in the same
  * pattern; `solve`, one more with the same matrix.  The guess is the right-hand side over m, the
- * tolerance 1e-5 of the size of the solution.  docs/linear-solvers.md has the table, and what "auto"
- * makes of it. */
+ * tolerance 1e-5 of the size of the solution.  docs/linear-solvers.md has the table, and what
+ * "auto" makes of it. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

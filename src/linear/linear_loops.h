@@ -1,7 +1,7 @@
 /* linear_loops.h -- the loops over rows of conjugate gradients, instances for each instruction set
  * and width.
  *
- * Vectors are stored row by row, `width` numbers each: the columns, for three of them and a zero. */
+ * Vectors are stored row by row, `width` numbers each: the columns, three and a zero. */
 #ifndef SPH_LINEAR_LOOPS_H
 #define SPH_LINEAR_LOOPS_H
 #include "cpu.h"

@@ -335,7 +335,7 @@ static void guesses_count(void **state)
   sph_csr_free(&p.A);
 }
 
-/* The bound of the error is not far above it: on average within a factor of 10. */
+/* The bound of the error is 5 times that on average; without the recurrence it is 9 times. */
 static void bounds_are_close(void **state)
 {
   double sum = 0;
@@ -352,7 +352,7 @@ static void bounds_are_close(void **state)
     assert_true(weighted_error() <= tolerance);
     sum += log10(weighted_error() / tolerance);
   }
-  if (sum < -6) fail_msg("error / tolerance is %g on average", pow(10, sum / 6));
+  if (pow(10, sum / 6) < 0.15) fail_msg("error / tolerance is %g on average", pow(10, sum / 6));
   sph_linear_free(solver);
   sph_csr_free(&p.A);
 }
