@@ -12,6 +12,7 @@
 #include "sphode/field.h"
 #include "sphode/group.h"
 #include "sphode/integrator.h"
+#include "sphode/jacobian.h"
 #include "sphode/kernel.h"
 #include "sphode/material.h"
 #include "sphode/neighbors.h"

@@ -55,8 +55,8 @@ SPH_API int sph_sim_weights(N_Vector y, N_Vector weight, void *sim);
 /* Jv = (df/dy)(t, y) v: an ARKLsJacTimesVecFn and CVLsJacTimesVecFn (fy and tmp are not read).
  * Exact to rounding but for callbacks of yours (body terms, tiles, phi, an equation of state
  * without slopes), which are differenced, to about 1e-10; a body term's rates of a particle are
- * taken to depend on its own state only.  At kinks (a cut-off, a pair that begins to approach) it is
- * the derivative of one side.  Returns as sph_sim_rhs. */
+ * taken to depend on its own state only.  At kinks (a cut-off, a pair that begins to approach) it
+ * is the derivative of one side.  Returns as sph_sim_rhs. */
 SPH_API int sph_sim_jacobian_times(N_Vector v, N_Vector Jv, double t, N_Vector y, N_Vector fy,
                                    void *sim, N_Vector tmp);
 

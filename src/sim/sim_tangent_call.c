@@ -3,7 +3,7 @@
  *
  *   g'(0) = [8 (g(e) - g(-e)) - (g(2e) - g(-2e))]/(12 e) + O(e^4)
  *
- * e moves nothing by more than 2^-15 of its scale: rounding leaves 1e-11, and a kink, as of a kernel
+ * e moves nothing by more than 2^-15 of its scale: rounding leaves 1e-11, a kink, as of a kernel
  * at the end of its support, 1e-7 of the pair that lies on it. */
 #include <math.h>
 #include <stddef.h>
