@@ -43,7 +43,7 @@ static const command commands[] = {
     {"plot", "DIR", "Fn", sph_prog_plot, "draw a run again",
      "      --field NAME       colour: velocity, pressure, density, energy, velocity_x, ...\n"
      "      --frames N         snapshots on the sheet\n"},
-    {"work-precision", "CASE.yml", "ostqfFITCRUNX", sph_prog_work_precision,
+    {"work-precision", "CASE.yml", "ostqfFITCRUNXM", sph_prog_work_precision,
      "what each integrator needs for which temporal error",
      "      --integrators LIST   names with commas between, each with keys of its own behind a +:\n"
      "                           imex:ark324l2sa-4-2-3+linear=cholmod+terms.delta.part=implicit;\n"
@@ -60,6 +60,7 @@ static const command commands[] = {
      "                           its own error is a tenth of the least that was found\n"
      "      --until TIME         instead of the end of the case, as 0.1s\n"
      "      --repeat N           the quickest of N runs counts (default: 1)\n"
+     "      --timeout N          a run that takes more than N seconds is stopped, and has failed\n"
      "      --field NAME         of the pictures and the summary (default: velocity)\n"
      "  -o, --output DIR         where to (default: the name of the case file and -work, here)\n"
      "  -s, --set KEY=VALUE      as with run\n"
@@ -89,6 +90,7 @@ static const struct option options[] = {
     {"reference", required_argument, NULL, 'R'},
     {"until", required_argument, NULL, 'U'},
     {"repeat", required_argument, NULL, 'N'},
+    {"timeout", required_argument, NULL, 'M'},
     {"fixed", no_argument, NULL, 'X'},
     {"help", no_argument, NULL, 'h'},
     {"version", no_argument, NULL, 'V'},
@@ -152,6 +154,7 @@ static int take(prog_options *o, int letter, const char *value)
   case 't': return number("threads", value, PROG_THREADS, &o->threads);
   case 'n': return number("frames", value, PROG_FRAMES, &o->frames);
   case 'N': return number("repeat", value, PROG_REPEATS, &o->repeat);
+  case 'M': return number("timeout", value, PROG_SECONDS, &o->timeout);
   case 'I': o->integrators = value; break;
   case 'T': o->tolerances = value; break;
   case 'C': o->cfl = value; break;

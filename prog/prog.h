@@ -8,7 +8,8 @@ enum {
   PROG_SETS = 64,
   PROG_THREADS = 1024,
   PROG_FRAMES = 16,
-  PROG_REPEATS = 100
+  PROG_REPEATS = 100,
+  PROG_SECONDS = 1000000
 }; /* at most, as in the library */
 
 typedef struct prog_options {
@@ -25,6 +26,7 @@ typedef struct prog_options {
   const char *integrators, *tolerances, *cfl, *reference;
   const char *until; /* NULL: the end of the case */
   int repeat;        /* 0: 1 */
+  int timeout;       /* of a run [s]; 0: none */
   int fixed;         /* no error control */
   char command[2000];
 } prog_options;
@@ -51,6 +53,7 @@ typedef struct prog_progress {
   double end;          /* [s] */
   double start, shown; /* wall time [s] */
   double tenth;        /* of the run, told last */
+  double deadline;     /* the run is stopped then [s]; 0: never */
   int quiet, live;     /* live: one line that is written over */
   long bound_by[8];    /* at the last line */
 } prog_progress;

@@ -85,7 +85,7 @@ static int progress(void *ctx, sph_sim *sim)
 {
   prog_progress *p = ctx;
   if (!p->quiet && is_due(p, sim)) tell(p, sim);
-  return stopped_by != 0;
+  return stopped_by || (p->deadline > 0 && sph_prog_progress_now() > p->deadline);
 }
 
 void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int quiet)

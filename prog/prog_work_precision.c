@@ -171,6 +171,7 @@ static int go(work *w, work_run *r, sph_sim *sim, const work_method *m,
   if (sph_sim_evaluate(sim)) return failed(r, sph_sim_status(sim), sph_sim_error(sim));
   if (!w->fields.n) sph_prog_work_state_fields(sim, &w->fields);
   sph_prog_progress_start(&progress, sim, w->end, 1);
+  if (w->o->timeout > 0 && r->method >= 0) progress.deadline = progress.start + w->o->timeout;
   double cpu = cpu_now(), wall = sph_prog_progress_now();
   r->status = sph_sim_run(sim, w->end);
   cpu = cpu_now() - cpu;
@@ -180,6 +181,8 @@ static int go(work *w, work_run *r, sph_sim *sim, const work_method *m,
     r->wall = wall;
   }
   sph_sim_get_stats(sim, &r->stats);
+  if (r->status == SPH_ERR_STOPPED && !sph_prog_progress_signal())
+    return failed(r, r->status, "it took longer than --timeout");
   if (r->status == SPH_ERR_STOPPED)
     return sph_prog_error(128 + sph_prog_progress_signal(), "stopped; nothing is written");
   if (r->status) return failed(r, r->status, sph_sim_error(sim));

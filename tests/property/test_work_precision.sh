@@ -107,6 +107,11 @@ ok $? "a smaller tolerance is a smaller error; keys behind a + are the integrato
 grep -q "^Evaluations for an error of energy" out && grep -q "^end  *t = 0.1 s, 100 particles" out
 ok $? "the summary tells the field and the end that were asked for"
 
+dir=slow
+run 0 "$sphode" work-precision "$wave" -o slow -q --integrators leapfrog --cfl 0.35,1e-6 --timeout 1 &&
+  column leapfrog 1e-6 outcome | grep -q "longer" && [[ $(column leapfrog 0.35 outcome) == done && ! -s out && ! -s err ]]
+ok $? "a run that takes too long is a row, and --quiet says nothing"
+
 # ---- refused
 
 refused 1 "an unknown integrator tells the nearest" "leapfog.* is unknown; the nearest is .leapfrog" "$wave" --integrators leapfog -o x
