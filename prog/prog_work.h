@@ -21,8 +21,8 @@ typedef struct work_fields {
 typedef struct work_method {
   char label[120];
   char method[64];
-  sph_case *c; /* with the keys behind the + set */
-  int error_control;
+  sph_case *c;              /* with the keys behind the + set */
+  int error_control, wants; /* sph_integrator_info */
   double dt; /* the smallest step that its limits allowed by default [s]; 0: not run yet */
 } work_method;
 

@@ -93,7 +93,10 @@ static int take_method(const prog_options *o, work_method *m, const char *label)
     sph_prog_error(PROG_FAILED, "%s", sim ? sph_sim_error(sim) : error.text);
   sph_sim_free(sim);
   for (int k = 0; sph_integrator_info_get(k, &info); k++)
-    if (!strcmp(info.name, m->method)) m->error_control = info.error_control && !o->fixed;
+    if (!strcmp(info.name, m->method)) {
+      m->error_control = info.error_control && !o->fixed;
+      m->wants = info.wants;
+    }
   return status && status != SPH_ERR_UNBUILT ? PROG_FAILED : PROG_OK;
 }
 
@@ -157,8 +160,7 @@ static int failed(work_run *r, int status, const char *why)
 /* A method that steps all terms alike leaves aside which parts they belong to. */
 static void attach(sph_sim *sim, const work_method *m, const sph_integrator_def *def)
 {
-  if (strncmp(m->method, "imex:", 5) && strncmp(m->method, "mri:", 4))
-    sph_sim_set_part(sim, NULL, "explicit");
+  if (!m->wants) sph_sim_set_part(sim, NULL, "explicit");
   sph_sim_set_integrator(sim, def);
 }
 
