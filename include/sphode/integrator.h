@@ -62,9 +62,9 @@ typedef struct sph_scheme {
 } sph_scheme;
 
 typedef struct sph_integrator_def {
-  /* "erk:<table>", "imex:<table>", "leapfrog", "verlet" (the same), "dkd", "predictor-corrector",
-   * "midpoint", "verlet-dual", "symplectic"; NULL: own's, or without one
-   * "erk:bogacki-shampine-4-2-3" */
+  /* "erk:<table>", "imex:<table>", "mri:<coupling>", "sprk:<table>", "lsrk:<method>", "leapfrog",
+   * "verlet" (the same), "dkd", "predictor-corrector", "midpoint", "verlet-dual", "symplectic";
+   * NULL: own's, or without one "erk:bogacki-shampine-4-2-3" */
   const char *method;
   /* Fraction of the scheme's stability limit; 0: 0.8 with error control, 0.35 without. */
   double cfl;
@@ -87,19 +87,28 @@ typedef struct sph_integrator_def {
   /* What solves the linear systems of implicit stages: "pcg-jacobi", "pcg-ic0",
    * "cholmod-supernodal", "cholmod-simplicial", "klu"; NULL: "auto". */
   const char *linear;
+  /* mri: how the fast part is stepped between slow stages.  By fast_method, an "erk:<table>" (NULL:
+   * one of the order of the coupling), with steps of fast_step [s] or, where that is 0, with error
+   * control to fast_tolerance, relative to the same scales, within the limits of the fast part;
+   * 0: 0.1 of tolerance; < 0: these limits alone. */
+  const char *fast_method;
+  double fast_step, fast_tolerance;
   const sph_scheme *own; /* instead of method: a scheme of your own, copied; NULL: none */
 } sph_integrator_def;
 
 /* What a scheme asks of the right-hand side f besides its value: bits. */
 enum sph_integrator_wants {
-  SPH_WANTS_IMPLICIT = 1 /* terms of part "implicit" are solved for (sph_sim_set_part) */
+  SPH_WANTS_IMPLICIT = 1,  /* terms of part "implicit" are solved for (sph_sim_set_part) */
+  SPH_WANTS_FAST = 2,      /* terms of part "fast" have steps of their own */
+  SPH_WANTS_SEPARABLE = 4, /* positions move with their velocities, which change with positions */
+  SPH_WANTS_DOMINANT = 8   /* a bound of the eigenvalues of df/dy */
 };
 
 /* What one integrator is: a row of the table that `sphode info integrators` prints. */
 typedef struct sph_integrator_info {
   const char *name;
   int order;
-  int stages;        /* right-hand sides a step; imex: explicit parts */
+  int stages;        /* right-hand sides a step; imex, mri: explicit parts; 0: as many as needed */
   int error_control; /* has an embedded error estimate */
   double stability;  /* limit S of explicit parts, measured: dt <= S h/(c + |v|) */
   int wants;         /* enum sph_integrator_wants; 0: nothing */
@@ -108,12 +117,24 @@ typedef struct sph_integrator_info {
 /* Row k = 0, 1, ...; returns 0 behind the last. */
 SPH_API int sph_integrator_info_get(int k, sph_integrator_info *info);
 
+/* Integrators that the SUNDIALS of this library lacks: asking for one is SPH_ERR_UNBUILT. */
+typedef struct sph_integrator_missing {
+  const char *name;
+  char needs[64]; /* "SUNDIALS 7.2 or later; this library has 6.4.1" */
+} sph_integrator_missing;
+
+/* Row k = 0, 1, ...; returns 0 behind the last. */
+SPH_API int sph_integrator_missing_get(int k, sph_integrator_missing *missing);
+
 /* What happened so far. */
 typedef struct sph_step_stats {
   long steps;                /* accepted */
   long rejected;             /* failed error tests */
   long retries;              /* attempts repeated with half the step after SPH_RETRY */
   long rhs_evaluations;      /* also of the explicit part alone */
+  long fast_evaluations;     /* of the fast part alone */
+  long fast_steps;           /* of the fast part */
+  long fast_rejected;        /* of them: repeated with a smaller one */
   long implicit_evaluations; /* of the implicit part alone */
   long solves;               /* of implicit stages */
   long solve_iterations;     /* of linear solvers in them */

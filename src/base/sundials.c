@@ -24,11 +24,11 @@
   .free = SPH_SUNDIALS(Step, Free), .reset = SPH_SUNDIALS(Step, Reset),        \
   .evolve = SPH_SUNDIALS(Step, Evolve), .get_dky = SPH_SUNDIALS(Step, GetDky), \
   .set_user_data = SPH_SUNDIALS(Step, SetUserData),                            \
-  .wf_tolerances = SPH_SUNDIALS(Step, WFtolerances),                           \
   .set_interpolant_type = SPH_SUNDIALS(Step, SetInterpolantType),              \
   .set_interpolant_degree = SPH_SUNDIALS(Step, SetInterpolantDegree),          \
   .set_stop_time = SPH_SUNDIALS(Step, SetStopTime),                            \
   .set_fixed_step = SPH_SUNDIALS(Step, SetFixedStep)
+#define WEIGHTS(Step) .wf_tolerances = SPH_SUNDIALS(Step, WFtolerances),
 #define ADAPTIVE(Step)                                              \
   .set_init_step = SPH_SUNDIALS(Step, SetInitStep),                 \
   .get_current_step = SPH_SUNDIALS(Step, GetCurrentStep),           \
@@ -45,14 +45,24 @@
   .set_max_err_test_fails = SPH_SUNDIALS(Step, SetMaxErrTestFails)
 
 const sph_sundials_calls sph_sundials_erk = {HANDLER(ERKStep) SHARED(ERKStep),
-                                             CONTROLLER(ERKStep) ADAPTIVE(ERKStep)};
+                                             WEIGHTS(ERKStep) CONTROLLER(ERKStep)
+                                                 ADAPTIVE(ERKStep)};
 const sph_sundials_calls sph_sundials_ark = {HANDLER(ARKStep) SHARED(ARKStep),
-                                             CONTROLLER(ARKStep) ADAPTIVE(ARKStep)};
+                                             WEIGHTS(ARKStep) CONTROLLER(ARKStep)
+                                                 ADAPTIVE(ARKStep)};
 #if SPH_SUNDIALS_NUMBER >= 70100
-const sph_sundials_calls sph_sundials_mri = {SHARED(MRIStep),
-                                             CONTROLLER(MRIStep) ADAPTIVE(MRIStep)};
+const sph_sundials_calls sph_sundials_mri = {SHARED(MRIStep), WEIGHTS(MRIStep) CONTROLLER(MRIStep)
+                                                                  ADAPTIVE(MRIStep)};
 #else
-const sph_sundials_calls sph_sundials_mri = {HANDLER(MRIStep) SHARED(MRIStep)};
+const sph_sundials_calls sph_sundials_mri = {HANDLER(MRIStep) SHARED(MRIStep), WEIGHTS(MRIStep)};
+#endif
+
+#if SPH_SUNDIALS_NUMBER >= 60600 /* steps of SPRKStep have no error: no weights */
+const sph_sundials_calls sph_sundials_sprk = {HANDLER(SPRKStep) SHARED(SPRKStep)};
+#endif
+#if SPH_SUNDIALS_NUMBER >= 70200
+const sph_sundials_calls sph_sundials_lsrk = {SHARED(LSRKStep), WEIGHTS(LSRKStep) CONTROLLER(
+                                                                    LSRKStep) ADAPTIVE(LSRKStep)};
 #endif
 
 #if SPH_SUNDIALS_NUMBER >= 70000

@@ -34,7 +34,6 @@ typedef struct sph_sundials_calls {
   int (*evolve)(void *memory, sunrealtype t_out, N_Vector y, sunrealtype *t, int task);
   int (*get_dky)(void *memory, sunrealtype t, int k, N_Vector dky);
   int (*set_user_data)(void *memory, void *data);
-  int (*wf_tolerances)(void *memory, ARKEwtFn weigh);
   int (*set_interpolant_type)(void *memory, int type);
   int (*set_interpolant_degree)(void *memory, int degree);
   int (*set_stop_time)(void *memory, sunrealtype t);
@@ -42,7 +41,8 @@ typedef struct sph_sundials_calls {
 #if SPH_SUNDIALS_NUMBER < 70000
   int (*set_err_handler_fn)(void *memory, ARKErrHandlerFn hear, void *data);
 #endif
-  /* adaptive steps: none of MRIStep up to 7.0 */
+  int (*wf_tolerances)(void *memory, ARKEwtFn weigh); /* not of SPRKStep */
+  /* adaptive steps: not of SPRKStep, nor of MRIStep up to 7.0 */
   int (*set_init_step)(void *memory, sunrealtype h);
   int (*get_current_step)(void *memory, sunrealtype *h);
   int (*get_num_err_test_fails)(void *memory, long *fails);
@@ -64,6 +64,8 @@ typedef struct sph_sundials_calls {
 #endif
 } sph_sundials_calls;
 extern const sph_sundials_calls sph_sundials_erk, sph_sundials_ark, sph_sundials_mri;
+extern const sph_sundials_calls sph_sundials_sprk; /* from 6.6 on */
+extern const sph_sundials_calls sph_sundials_lsrk; /* from 7.2 on */
 
 /* A context that never prints; NULL on failure (recorded). */
 SUNContext sph_sundials_context(sph_error *error);

@@ -28,6 +28,11 @@ static int check_word(sph_case *c, const sph_case_key *key, sph_case_node *node)
     if (!strcmp(node->text, word)) return SPH_OK;
     sph_words_add(&w, word);
   }
+  sph_integrator_missing missing;
+  for (int k = 0; !strcmp(key->more, "@integrators") && sph_integrator_missing_get(k, &missing);
+       k++)
+    if (!strcmp(node->text, missing.name))
+      return FAIL(node, 0, "%s: %s needs %s", key->name, missing.name, missing.needs);
   return FAIL(node, 0, "%s: found '%.40s'; %sknown: %s", key->name, node->text, w.nearest, w.known);
 }
 

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "fast.h"
 #include "integrator_data.h"
 #include "integrator_table.h"
 #include "memory.h"
@@ -16,6 +17,11 @@ static const double CLOSE = 1e-6; /* relative: such step sizes are the same */
 int sph_integrator_info_get(int k, sph_integrator_info *info)
 {
   return info ? sph_integrator_table_info(k, info) : 0;
+}
+
+int sph_integrator_missing_get(int k, sph_integrator_missing *missing)
+{
+  return missing ? sph_integrator_table_missing(k, missing) : 0;
 }
 
 static int check_value(const char *name, double value, const char *right, int good,
@@ -63,7 +69,7 @@ static int look_up(const sph_integrator_def *def, int *row, sph_integrator_info 
     return status;
   }
   *row = sph_integrator_table_find(def->method, error);
-  if (*row < 0) return SPH_ERR_ARGUMENT;
+  if (*row < 0) return *row;
   if (sph_integrator_table_info(*row, info)) return SPH_OK;
   return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: table of %s", def->method);
 }
@@ -96,7 +102,7 @@ int sph_integrator_check(const sph_integrator_def *def, sph_error *error)
                            def->controller, info.name);
   if (!status && def->controller && !sph_controller_find(def->controller, error))
     status = SPH_ERR_ARGUMENT;
-  return status;
+  return status ? status : sph_fast_check(def, info.wants & SPH_WANTS_FAST, error);
 }
 
 /* The one that was asked for; else that of the table, the integral one where it has none. */
@@ -129,6 +135,8 @@ static void define(sph_integrator *it, const sph_integrator_def *def)
   if (def->tolerance == 0) it->def.tolerance = 1e-2;
   if (def->stage_tolerance == 0)
     it->def.stage_tolerance = it->adaptive ? 1e-2 * it->def.tolerance : 1e-8;
+  it->cfl_given = def->cfl;
+  if (def->fast_tolerance == 0) it->def.fast_tolerance = 0.1 * it->def.tolerance;
   if (def->cfl == 0) it->def.cfl = it->adaptive ? 0.8 : 0.35;
   if (def->retries == 0) it->def.retries = 12;
 }
@@ -171,7 +179,10 @@ int sph_integrator_rhs(sph_integrator *it, double t, N_Vector y, N_Vector ydot)
 
 int sph_integrator_piece(sph_integrator *it, int piece, double t, N_Vector y, N_Vector ydot)
 {
-  ++*(piece == SPH_PIECE_IMPLICIT ? &it->stats.implicit_evaluations : &it->stats.rhs_evaluations);
+  long *count = piece == SPH_PIECE_IMPLICIT ? &it->stats.implicit_evaluations
+                : piece == SPH_PIECE_FAST   ? &it->stats.fast_evaluations
+                                            : &it->stats.rhs_evaluations;
+  ++*count;
   it->rhs_status = it->problem.rhs_piece(piece, t, y, ydot, it->problem.ctx);
   return it->rhs_status;
 }

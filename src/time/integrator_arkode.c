@@ -66,9 +66,9 @@ static int configure(sph_integrator *it, sph_integrator_arkode *own)
 {
   const sph_sundials_calls *call = own->call;
   void *m = own->memory;
-  int failed = call->set_user_data(m, it) || call->wf_tolerances(m, weigh) ||
-               call->set_interpolant_type(m, ARK_INTERP_HERMITE) ||
-               call->set_interpolant_degree(m, 3);
+  int failed =
+      call->set_user_data(m, it) || (call->wf_tolerances && call->wf_tolerances(m, weigh)) ||
+      call->set_interpolant_type(m, ARK_INTERP_HERMITE) || call->set_interpolant_degree(m, 3);
   if (failed || !it->adaptive) return failed;
   own->controller = (sph_sundials_controller){.step = control, .ctx = it};
   return sph_sundials_control(call, m, own->context, &own->controller) ||

@@ -39,6 +39,7 @@ struct sph_integrator {
   char name[SPH_SCHEME_NAME_MAX]; /* and of its name */
   int adaptive;                   /* the step size follows the error estimate */
   sph_controller controller;      /* how, if it does */
+  double cfl_given;               /* def.cfl before its default: also that of a fast part */
   const sph_stepper *stepper;
   void *own;             /* the stepper's */
   N_Vector y;            /* borrowed */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "integrator_data.h"
+#include "integrator_kinds.h"
 #include "integrator_rdpk.h"
 #include "name.h"
 
@@ -105,22 +106,34 @@ typedef struct family {
   const char *(*name)(int k);                    /* NULL behind the last */
   int (*info)(int k, sph_integrator_info *info); /* all but the name; 0: out of memory */
   const sph_stepper *stepper;
+  const char *(*known)(int k, int *needs); /* instead of name: integrator_kinds.h */
 } family;
 
 static const family families[] = {
-    {own_name, own_info, &sph_ode_stepper},
-    {erk_name, erk_info, &sph_integrator_erk},
-    {sph_integrator_rdpk_name, rdpk_info, &sph_integrator_erk},
-    {imex_name, imex_info, &sph_integrator_imex},
+    {own_name, own_info, &sph_ode_stepper, NULL},
+    {erk_name, erk_info, &sph_integrator_erk, NULL},
+    {sph_integrator_rdpk_name, rdpk_info, &sph_integrator_erk, NULL},
+    {imex_name, imex_info, &sph_integrator_imex, NULL},
+    {NULL, sph_integrator_mri_info, &sph_integrator_mri, sph_integrator_mri_known},
+    {NULL, sph_integrator_sprk_info, &sph_integrator_sprk, sph_integrator_sprk_known},
+    {NULL, sph_integrator_lsrk_info, &sph_integrator_lsrk, sph_integrator_lsrk_known},
 };
 enum { FAMILIES = sizeof families / sizeof *families };
+
+static const char *name_in(const family *f, int k)
+{
+  int needs = 0;
+  if (f->name) return f->name(k);
+  const char *name = f->known(k, &needs);
+  return needs <= SPH_SUNDIALS_NUMBER ? name : NULL;
+}
 
 /* The family of row *k, which becomes its number there; NULL: no row. */
 static const family *family_of(int *k)
 {
   for (int f = 0; f < FAMILIES && *k >= 0; f++) {
     int rows = 0;
-    while (families[f].name(rows)) rows++;
+    while (name_in(&families[f], rows)) rows++;
     if (*k < rows) return &families[f];
     *k -= rows;
   }
@@ -130,7 +143,7 @@ static const family *family_of(int *k)
 const char *sph_integrator_table_name(int k)
 {
   const family *f = family_of(&k);
-  return f ? f->name(k) : NULL;
+  return f ? name_in(f, k) : NULL;
 }
 
 const sph_stepper *sph_integrator_table_stepper(int k)
@@ -191,8 +204,23 @@ int sph_integrator_table_info(int k, sph_integrator_info *info)
 {
   const family *f = family_of(&k);
   if (!f || !f->info(k, info)) return 0;
-  info->name = f->name(k);
+  info->name = name_in(f, k);
   return 1;
+}
+
+int sph_integrator_table_missing(int k, sph_integrator_missing *missing)
+{
+  for (int f = 0; f < FAMILIES && k >= 0; f++)
+    for (int row = 0, needs = 0; families[f].known; row++) {
+      missing->name = families[f].known(row, &needs);
+      if (!missing->name) break;
+      if (needs <= SPH_SUNDIALS_NUMBER || k-- > 0) continue;
+      snprintf(missing->needs, sizeof missing->needs,
+               "SUNDIALS %d.%d or later; this library has " SUNDIALS_VERSION, needs / 10000,
+               needs / 100 % 100);
+      return 1;
+    }
+  return 0;
 }
 
 /* Letters of "erk:" and the like; 0: none. */
@@ -233,10 +261,20 @@ static int unknown(const char *name, sph_error *error)
     else if (!same_kind(row, last))
       snprintf(known + used, sizeof known - used, "%s%.*s...", comma, (int)prefix(row), row);
   }
-  sph_error_set(error, SPH_ERR_ARGUMENT,
-                "integrator \"%.60s\" is unknown; the nearest is \"%s\", known are %s", name,
-                nearest, known);
-  return -1;
+  return sph_error_set(error, SPH_ERR_ARGUMENT,
+                       "integrator \"%.60s\" is unknown; the nearest is \"%s\", known are %s", name,
+                       nearest, known);
+}
+
+/* Has a newer SUNDIALS that row, or all of its kind? */
+static int unbuilt(const char *name, sph_error *error)
+{
+  sph_integrator_missing row;
+  int kind = prefix(name) && !kind_is_known(name);
+  for (int k = 0; sph_integrator_table_missing(k, &row); k++)
+    if (!strcmp(name, row.name) || (kind && same_kind(name, row.name)))
+      return sph_error_set(error, SPH_ERR_UNBUILT, "integrator %.60s needs %s", name, row.needs);
+  return SPH_OK;
 }
 
 int sph_integrator_table_find(const char *name, sph_error *error)
@@ -245,5 +283,6 @@ int sph_integrator_table_find(const char *name, sph_error *error)
   const char *row;
   for (int k = 0; (row = sph_integrator_table_name(k)); k++)
     if (!strcmp(name, row)) return k;
-  return unknown(name, error);
+  int status = unbuilt(name, error);
+  return status ? status : unknown(name, error);
 }

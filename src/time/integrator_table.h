@@ -7,8 +7,11 @@
 
 /* Row k = 0, 1, ... of the table; NULL behind the last.  The first rows are our own schemes. */
 const char *sph_integrator_table_name(int k);
-/* Row of that name (NULL: the default), or -1: recorded, with the known names and the nearest. */
+/* Row of that name (NULL: the default), or a status < 0, recorded: an unknown one, with the known
+ * names and the nearest, or one that needs a newer SUNDIALS, with its version. */
 int sph_integrator_table_find(const char *name, sph_error *error);
+/* Row k of those that a newer SUNDIALS has; 0 behind the last. */
+int sph_integrator_table_missing(int k, sph_integrator_missing *missing);
 /* How row k steps; -1: a user's own scheme. */
 const sph_stepper *sph_integrator_table_stepper(int k);
 /* The scheme of row k if it is our own, else NULL. */

@@ -1,0 +1,142 @@
+/* The energy that relaxation keeps (Ketcheson 2019),
+ *
+ *   E = sum m (v^2/2 + u + e_el(rho) + Phi(x)),
+ *
+ * u where a fluid integrates it, e_el for pressures of density alone, Phi of the forces that have a
+ * potential; and its derivative
+ *
+ *   dE/dx = -m g,  dE/dv = m v,  dE/du = m,  dE/drho = m p/rho^2,
+ *
+ * g: the acceleration by these forces.  With the total energy per mass for u, v^2/2 is in it. */
+#include "sim_relax.h"
+
+#include "sim_rhs.h"
+
+enum { CHUNK = 2048, PARALLEL_MIN = 4096 };
+
+static int total(const sph_group *group)
+{
+  return sph_group_data_energy(group) == SPH_TOTAL_ENERGY;
+}
+
+static double energy_of(const sph_sim *sim, const sph_group *group, const sph_view *view, long i)
+{
+  const int elastic = !group->eos.thermal && group->eos.elastic_energy;
+  double x[3] = {0}, v2 = 0, e = view->energy ? view->energy[i] : 0;
+  for (int d = 0; d < sim->dim; d++) {
+    x[d] = view->x[d][i];
+    v2 += view->v[d][i] * view->v[d][i];
+  }
+  if (!total(group)) e += v2 / 2;
+  if (elastic) e += group->eos.elastic_energy(&group->eos, view->rho[i]);
+  return view->m[i] * (e + sph_term_set_potential(&sim->terms, x));
+}
+
+/* Chunks of particles, summed in order. */
+static double energy_of_group(const sph_sim *sim, const sph_group *group, const sph_view *view)
+{
+  const long chunks = (view->n + CHUNK - 1) / CHUNK;
+  double *part = sim->sorted[group->index].sum[0], sum = 0; /* free between evaluations */
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (view->n > PARALLEL_MIN)
+  for (long k = 0; k < chunks; k++) {
+    const long end = (k + 1) * CHUNK < view->n ? (k + 1) * CHUNK : view->n;
+    part[k] = 0;
+    for (long i = k * CHUNK; i < end; i++) part[k] += energy_of(sim, group, view, i);
+  }
+  for (long k = 0; k < chunks; k++) sum += part[k];
+  return sum;
+}
+
+int sph_sim_relax_energy(N_Vector y, double *energy, void *ctx)
+{
+  const sph_sim *sim = ctx;
+  *energy = 0;
+  for (int g = 0; g < sim->groups; g++) {
+    const sph_group *group = sim->group[g];
+    const sph_view view = sph_group_data_view(group, sph_nvector_data(y), NULL);
+    if (!group->wall) *energy += energy_of_group(sim, group, &view);
+  }
+  return *energy - *energy == 0 ? SPH_OK : SPH_RETRY;
+}
+
+/* The acceleration by forces with a potential, for particles that do not move, into dx. */
+static int accelerate(sph_sim *sim, const sph_group *group, const sph_view *view)
+{
+  sph_particles s = {.dim = sim->dim, .n = view->n, .t = sim->time, .group = group->name};
+  int status = SPH_OK;
+  for (int d = 0; d < sim->dim; d++) {
+    for (long i = 0; i < view->n; i++) view->dx[d][i] = sim->terms.g[d];
+    s.x[d] = view->x[d];
+    s.v[d] = view->v[d];
+    s.a[d] = view->dx[d];
+  }
+  s.rho = view->rho;
+  s.m = view->m;
+  for (int k = 0; !status && k < sim->terms.called; k++) {
+    const sph_term *term = &sim->terms.call[k].term;
+    if (term->potential && term->body) status = term->body(term, &s);
+  }
+  return status;
+}
+
+/* Particles [begin, end). */
+static void derive(const sph_sim *sim, const sph_group *group, const sph_view *view, long begin,
+                   long end)
+{
+  double *p = view->p + begin, *c = view->c + begin;
+  const int elastic = view->drho && !group->eos.thermal && group->eos.elastic_energy;
+  if (elastic) group->eos.pressure(&group->eos, end - begin, view->rho + begin, NULL, p, c);
+  for (int d = 0; d < sim->dim; d++)
+    for (long i = begin; i < end; i++) {
+      view->dx[d][i] *= -view->m[i];
+      view->dv[d][i] = total(group) ? 0 : view->m[i] * view->v[d][i];
+    }
+  for (long i = begin; view->du && i < end; i++) view->du[i] = view->m[i];
+  for (long i = begin; view->drho && i < end; i++)
+    view->drho[i] = elastic ? view->m[i] * view->p[i] / (view->rho[i] * view->rho[i]) : 0;
+}
+
+int sph_sim_relax_gradient(N_Vector y, N_Vector gradient, void *ctx)
+{
+  sph_sim *sim = ctx;
+  int status = SPH_OK;
+  for (int g = 0; !status && g < sim->groups; g++) {
+    const sph_group *group = sim->group[g];
+    const sph_view view =
+        sph_group_data_view(group, sph_nvector_data(y), sph_nvector_data(gradient));
+    if (group->wall) continue;
+    status = accelerate(sim, group, &view);
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (view.n > PARALLEL_MIN)
+    for (long i = 0; i < view.n; i += CHUNK)
+      derive(sim, group, &view, i, i + CHUNK < view.n ? i + CHUNK : view.n);
+    for (int q = 0; q < group->scalars; q++)
+      for (long i = 0; i < view.n; i++) view.ds[q][i] = 0;
+  }
+  return status;
+}
+
+int sph_sim_relax_fit(sph_sim *sim)
+{
+  for (int g = 0; g < sim->groups; g++) {
+    const sph_group *group = sim->group[g];
+    const char *energy = sph_group_energy(group);
+    int field = sph_group_data_energy(group);
+    if (group->wall) continue;
+    if (field == SPH_ENTROPY || field == SPH_TEMPERATURE)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "relax energy: %s integrates %s; right is u or total "
+                          "(sph_group_set_energy)",
+                          group->name, energy);
+    if (!group->eos.thermal && sim->terms.summed)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "relax energy: the energy of %s is in its density, which is a sum over "
+                          "neighbours here; right is continuity, or an equation of state with an "
+                          "internal energy",
+                          group->name);
+    if (!group->eos.thermal && !group->eos.elastic_energy)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "relax energy: equation of state %s of %s has no elastic_energy",
+                          group->eos.name, group->name);
+  }
+  return SPH_OK;
+}
