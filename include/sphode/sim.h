@@ -72,7 +72,8 @@ SPH_API int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size);
 /* Runs to time t_end [s], writing outputs; or one step.  Returns a status. */
 SPH_API int sph_sim_run(sph_sim *sim, double t_end);
 SPH_API int sph_sim_step(sph_sim *sim);
-/* Fields were written between steps: the integrator starts anew from them. */
+/* Fields were written between steps: the integrator starts anew from them, with a step no longer
+ * than error control would have taken next. */
 SPH_API void sph_sim_changed(sph_sim *sim);
 /* Evaluates the right-hand side of the present state: pressure, sound speed, walls, rates
  * (sph_group_rate). */

@@ -369,7 +369,7 @@ void sph_sim_changed(sph_sim *sim)
 {
   if (!sph_sim_data_ok(sim) || !sim->prepared) return;
   sim->derived = sim->listed = 0; /* fields may have moved any distance */
-  sph_integrator_reset(sim->integrator, sim->time);
+  sph_integrator_go_on(sim->integrator, sim->time);
 }
 
 int sph_sim_evaluate(sph_sim *sim)

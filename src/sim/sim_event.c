@@ -191,7 +191,7 @@ int sph_sim_event_cut(sph_sim *sim, double t)
   int status = sph_sim_run_show(sim, t);
   if (!status && t < sph_integrator_time(sim->integrator)) {
     N_VScale(1, sim->frame, sim->y);
-    status = sph_integrator_reset(sim->integrator, t);
+    status = sph_integrator_go_on(sim->integrator, t);
     if (!status) status = sph_sim_run_show(sim, t);
   }
   for (int k = 0; !status && k < sim->watches; k++) {

@@ -152,7 +152,7 @@ sph_integrator *sph_integrator_create(const sph_integrator_def *def, const sph_p
   it->problem = *problem;
   it->y = y;
   it->time = it->previous = t;
-  it->cap = INFINITY;
+  it->cap = it->next = it->first = INFINITY;
   it->before = sph_nvector_clone(y, "the state before a step", error);
   if (!it->before) status = SPH_ERR_MEMORY;
   if (!status) status = it->stepper->create(it, context);
@@ -365,6 +365,14 @@ int sph_integrator_reset(sph_integrator *it, double t)
                          t);
   it->time = it->previous = t;
   it->started = it->stepped = 0;
-  it->cap = INFINITY;
+  it->cap = it->first = INFINITY;
   return SPH_OK;
+}
+
+int sph_integrator_go_on(sph_integrator *it, double t)
+{
+  double next = fmin(it->next, it->first); /* twice in a row: the first says more */
+  int status = sph_integrator_reset(it, t);
+  it->first = next;
+  return status;
 }

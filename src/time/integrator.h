@@ -30,8 +30,11 @@ int sph_integrator_interpolate(sph_integrator *integrator, double t, N_Vector at
 int sph_integrator_stepped(const sph_integrator *integrator);
 /* The slope of the dense output at t in the last step; work: overwritten. */
 int sph_integrator_rate(sph_integrator *integrator, double t, N_Vector rate, N_Vector work);
-/* y (or the right-hand side) changed under the integrator. */
+/* y (or the right-hand side) changed under the integrator: it starts anew. */
 int sph_integrator_reset(sph_integrator *integrator, double t);
+/* The same, but the first step is no longer than the next one would have been: for changes that
+ * leave errors what they are. */
+int sph_integrator_go_on(sph_integrator *integrator, double t);
 const sph_step_stats *sph_integrator_stats(const sph_integrator *integrator);
 /* What bound the last accepted step: enum sph_bound. */
 int sph_integrator_bound(const sph_integrator *integrator);

@@ -150,6 +150,7 @@ static int prepare(sph_integrator *it, const sph_attempt *a, double *h)
     int status = sph_integrator_arkode_reject(it);
     if (status) return status;
   }
+  if (own->fresh && it->first < 0.9 * *h) *h = it->first; /* else the limit binds as before */
   if (own->fresh) return own->call->set_init_step(own->memory, *h < INFINITY ? *h : 0);
   return own->call->get_current_step(own->memory, h);
 }
@@ -168,6 +169,7 @@ int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *a, double t_s
     return outcome(it, flag);
   }
   own->fresh = 0;
+  it->first = INFINITY;
   a->t = flag == ARK_TSTOP_RETURN ? t_stop : t;
   a->h = a->t - it->time;
   if (!it->adaptive) return SPH_OK;
@@ -178,6 +180,10 @@ int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *a, double t_s
   double short_step = sph_controller_remembers(&it->controller) ? 0.9 : 0.2;
   if (a->bound == SPH_BOUND_STOP && a->h < short_step * it->stats.dt_last)
     own->resume = it->stats.dt_last;
+  if (own->resume > 0)
+    it->next = own->resume;
+  else
+    own->call->get_current_step(own->memory, &it->next);
   return a->bound != SPH_BOUND_STOP && a->h < it->def.dt_min
              ? sph_integrator_fail(it, SPH_ERR_STEP, "error control asks for less than dt_min")
              : SPH_OK;

@@ -48,6 +48,8 @@ struct sph_integrator {
   int started;           /* evaluated at (time, y) since the last reset */
   int stepped;           /* there is a last step to interpolate in */
   double limit;          /* of the next step by the problem's limits [s] */
+  double next;           /* the step that error control would take [s]; INFINITY: it does not say */
+  double first;          /* longest first step after a start [s]; INFINITY: any */
   double cap;            /* of the next step after a retry, else INFINITY [s] */
   int cause;             /* of limit: enum sph_bound */
   int rhs_status;        /* of the last evaluation */

@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "controller.h"
@@ -160,6 +161,36 @@ static void filters_of_noise(void **state)
   }
 }
 
+/* Reset after every step: steps that go on stay those that error control has found; with limits far
+ * above, a new start tries these first, and fails. */
+static void going_on_keeps_the_step(void **state)
+{
+  long steps[3], rejected[3];
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    ode o;
+    ode_kepler(&o);
+    o.limit[SPH_BOUND_CFL] = 0.2;
+    ode_start(&o, &(sph_integrator_def){.tolerance = 1e-6});
+    while (sph_integrator_time(o.it) < 20) {
+      assert_int_equal(sph_integrator_step(o.it, 20), SPH_OK);
+      double t = sph_integrator_time(o.it);
+      if (k == 1) assert_int_equal(sph_integrator_go_on(o.it, t), SPH_OK);
+      if (k == 2) assert_int_equal(sph_integrator_reset(o.it, t), SPH_OK);
+    }
+    steps[k] = sph_integrator_stats(o.it)->steps;
+    rejected[k] = sph_integrator_stats(o.it)->rejected;
+    print_message("# %s: %ld steps, %ld repeated\n",
+                  k == 0   ? "no reset"
+                  : k == 1 ? "goes on"
+                           : "reset",
+                  steps[k], rejected[k]);
+    ode_end(&o);
+  }
+  assert_true(labs(steps[1] - steps[0]) <= 2 && labs(rejected[1] - rejected[0]) <= 2);
+  assert_true(rejected[2] > steps[2]);
+}
+
 static void unknown_ones_are_refused(void **state)
 {
   static const struct {
@@ -179,9 +210,13 @@ static void unknown_ones_are_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(formulas),         cmocka_unit_test(they_settle),
-      cmocka_unit_test(a_reset_forgets),  cmocka_unit_test(at_the_limit_of_stability),
-      cmocka_unit_test(filters_of_noise), cmocka_unit_test(unknown_ones_are_refused),
+      cmocka_unit_test(formulas),
+      cmocka_unit_test(they_settle),
+      cmocka_unit_test(a_reset_forgets),
+      cmocka_unit_test(at_the_limit_of_stability),
+      cmocka_unit_test(filters_of_noise),
+      cmocka_unit_test(going_on_keeps_the_step),
+      cmocka_unit_test(unknown_ones_are_refused),
   };
   cmocka_set_message_output(CM_OUTPUT_TAP);
   return cmocka_run_group_tests(tests, NULL, NULL);
