@@ -18,17 +18,26 @@ typedef struct cost {
 } cost;
 
 static const cost costs[] = {
-    {"steps", "steps"},       {"rejected", "rejected"}, {"evaluations", "evaluations"},
-    {"implicit", "implicit"}, {"solves", "solves"},     {"iterations", "iterations"},
+    {"steps", "steps"},
+    {"rejected", "rejected"},
+    {"evaluations", "evaluations"},
+    {"fast", "fast"},
+    {"implicit", "implicit"},
+    {"solves", "solves"},
+    {"iterations", "iterations"},
 };
-enum { COSTS = sizeof costs / sizeof *costs, EVALUATIONS = 2, IMPLICIT = 3 };
+enum { COSTS = sizeof costs / sizeof *costs, EVALUATIONS = 2, IMPLICIT = 4 };
 
 static long cost_of(const work_run *r, int k)
 {
   const sph_step_stats *s = &r->stats.step;
-  const long value[COSTS] = {s->steps,           s->rejected + s->retries,
-                             s->rhs_evaluations, s->implicit_evaluations,
-                             s->solves,          s->solve_iterations};
+  const long value[COSTS] = {s->steps,
+                             s->rejected + s->retries,
+                             s->rhs_evaluations,
+                             s->fast_evaluations,
+                             s->implicit_evaluations,
+                             s->solves,
+                             s->solve_iterations};
   return value[k];
 }
 
@@ -99,7 +108,8 @@ static void put_head(const work *w, const pages *to)
   put(to, "its error   ");
   for (int f = 0; f < fields->n; f++)
     put(to, "%s %s %.1e", f ? "," : "", fields->name[f], w->floor_of[f]);
-  put(to, "%s\n", w->poor ? ": MORE than a tenth of the least below" : ", from halving its steps");
+  put(to, "%s\n%-12s ~ where an error is less than ten times that\n",
+      w->poor ? ": MORE than a tenth of the least below" : ", from halving its steps", "");
 }
 
 static void put_run(const work *w, const work_run *r, const pages *to)
@@ -114,7 +124,8 @@ static void put_run(const work *w, const work_run *r, const pages *to)
   for (int k = 0; k < COSTS; k++)
     if (is_told(w, k)) put(to, " %11ld", cost_of(r, k));
   put(to, " %9.3g ", r->cpu);
-  for (int f = 0; f < w->fields.n; f++) put(to, " %9.2e", r->error[f]);
+  for (int f = 0; f < w->fields.n; f++)
+    put(to, " %c%8.2e", r->error[f] < 10 * w->floor_of[f] ? '~' : ' ', r->error[f]);
   put(to, "\n");
 }
 
