@@ -69,6 +69,22 @@ static const command commands[] = {
      "  -q, --quiet              no progress, no table\n"
      "\n"
      "Leaves work-precision.csv, work-precision.txt, evaluations.png and seconds.png.\n"},
+    {"spectrum", "CASE.yml", "ostqfIUZ", sph_prog_spectrum,
+     "eigenvalues of a small case, and the longest stable step of each integrator",
+     "      --frozen           positions are held: waves and friction on particles that stay "
+     "where\n"
+     "                         they are, and fewer eigenvalues (at most 4000; 1000 take 5 s)\n"
+     "      --until TIME       of the state there, as 0.1s, instead of the start\n"
+     "      --integrators LIST whose regions of stability the picture shows, with commas between\n"
+     "                         (default: leapfrog,erk:bogacki-shampine-4-2-3,\n"
+     "                         erk:dormand-prince-7-4-5,erk:rdpk3sp49-9-3-4)\n"
+     "  -o, --output DIR       where to (default: the name of the case file and -spectrum, here)\n"
+     "  -s, --set KEY=VALUE    as with run\n"
+     "  -t, --threads N        as with run\n"
+     "  -f, --force            write over what ended\n"
+     "  -q, --quiet            no text, no progress\n"
+     "\n"
+     "Leaves spectrum.csv, spectrum.txt, regions.csv and spectrum.png.\n"},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
@@ -92,6 +108,7 @@ static const struct option options[] = {
     {"repeat", required_argument, NULL, 'N'},
     {"timeout", required_argument, NULL, 'M'},
     {"fixed", no_argument, NULL, 'X'},
+    {"frozen", no_argument, NULL, 'Z'},
     {"help", no_argument, NULL, 'h'},
     {"version", no_argument, NULL, 'V'},
     {NULL, 0, NULL, 0},
@@ -161,6 +178,7 @@ static int take(prog_options *o, int letter, const char *value)
   case 'R': o->reference = value; break;
   case 'U': o->until = value; break;
   case 'X': o->fixed = 1; break;
+  case 'Z': o->frozen = 1; break;
   case 'q': o->quiet = 1; break;
   case 'f': o->force = 1; break;
   case 'b': o->strict = 1; break;

@@ -28,6 +28,7 @@ typedef struct prog_options {
   int repeat;        /* 0: 1 */
   int timeout;       /* of a run [s]; 0: none */
   int fixed;         /* no error control */
+  int frozen;        /* spectrum: positions are held */
   char command[2000];
 } prog_options;
 
@@ -37,6 +38,7 @@ int sph_prog_check(const prog_options *o);
 int sph_prog_info(const prog_options *o);
 int sph_prog_plot(const prog_options *o);
 int sph_prog_work_precision(const prog_options *o);
+int sph_prog_spectrum(const prog_options *o);
 
 /* sphode info kernels: for people; --csv --q, which returns the exit status. */
 void sph_prog_kernels_table(void);

@@ -36,6 +36,12 @@ static const char *const ours[] = {
     "seconds.png",
     "seconds.gp",
     "seconds.dat",
+    "spectrum.csv",
+    "spectrum.txt",
+    "regions.csv",
+    "spectrum.png",
+    "spectrum.gp",
+    "spectrum.dat",
 };
 
 static int is_ours(const char *name)
@@ -85,7 +91,8 @@ int sph_prog_directory_take(const char *directory, int force)
   else if (flock(at, LOCK_EX | LOCK_NB))
     sph_prog_error(PROG_FAILED, "another run is writing to %s now", directory);
   else if (!force && (!faccessat(at, "summary.json", F_OK, 0) ||
-                      !faccessat(at, "work-precision.csv", F_OK, 0)))
+                      !faccessat(at, "work-precision.csv", F_OK, 0) ||
+                      !faccessat(at, "spectrum.txt", F_OK, 0)))
     sph_prog_error(PROG_FAILED,
                    "%s holds a run that ended; --output DIR goes elsewhere, --force writes over it",
                    directory);

@@ -155,6 +155,19 @@ enum sph_bound {
 };
 SPH_API const char *sph_bound_name(int bound); /* "cfl", "viscous", ... */
 
+/* ---- linear stability ----
+ * Of y' = lambda y with steps dt, z = lambda dt.  The amplification of an explicit Runge-Kutta
+ * scheme is |R(z)|, R its stability function; of the schemes of this library that of velocity and
+ * another field that exchange, measured over 96 steps.  "erk:..." and those; others depend on which
+ * terms they take implicitly: NaN, as for an unknown name. */
+
+/* Largest |z| on the ray arg z = angle [rad], pi/2 to pi, up to which no |z| is amplified by more
+ * than 1.001 a step. */
+SPH_API double sph_stability_extent(const char *method, double angle);
+/* The longest dt [s] for n eigenvalues re[k] + i im[k] [1/s]; growing ones count as if they were on
+ * the imaginary axis; INFINITY if all are zero. */
+SPH_API double sph_stability_step(const char *method, long n, const double *re, const double *im);
+
 #ifdef __cplusplus
 }
 #endif

@@ -47,6 +47,15 @@ SPH_API int sph_jacobian_evaluate_at(sph_jacobian *jacobian, double t, const dou
 SPH_API long sph_jacobian_row(const sph_jacobian *jacobian, const sph_group *group,
                               const char *field, int component);
 
+/* Its eigenvalues re[k] + i im[k] [1/s], as a full matrix: for small systems, n up to
+ * SPH_EIGENVALUES_MAX (5 s for 1000, growing with the cube).  frozen: positions are held, their
+ * rows and columns are left out: waves and friction on particles that stay where they are, and five
+ * times less time.  re, im: [n].  Returns how many there are, or a status < 0 that sticks to the
+ * simulation. */
+enum { SPH_EIGENVALUES_MAX = 4000 };
+SPH_API long sph_jacobian_eigenvalues(const sph_jacobian *jacobian, int frozen, double *re,
+                                      double *im);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,33 +1,11 @@
 /* The Jacobian as a sparse matrix.  Of a field other than the position all rates of a particle
  * depend on all that its set of particles has; dx/dt = v on v alone, but with XSPH. */
-#include "sphode/jacobian.h"
-
 #include <string.h>
 
-#include "jacobian_pattern.h"
+#include "jacobian_data.h"
 #include "memory.h"
 #include "sim_prepare.h"
 #include "sim_tangent.h"
-
-typedef struct jacobian {
-  sph_jacobian open; /* first: the user has a pointer to it */
-  sph_sim *sim;
-  int lagged;
-  long *place;             /* [n] */
-  long *segment_row;       /* [segments]: first row of each segment */
-  long base[SPH_SETS_MAX]; /* numbers of fluid particles */
-  long particles;
-  sph_sets set;         /* on which particles those of each depend */
-  int *colour, colours; /* [particles] */
-  long *first;          /* [n + 1] */
-  int *column;
-  double *value;
-  /* Product p of f' with a vector, one for each segment and colour, fills entries filled[p] to
-   * filled[p + 1] - 1 of entry[], which lie in the rows row[]. */
-  long *filled, *entry;
-  int *row;
-  double *s, *out; /* [layout.length] */
-} jacobian;
 
 static int group_of(const sph_sim *sim, int segment)
 {

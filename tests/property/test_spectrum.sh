@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# sphode spectrum: what it finds, writes and refuses.
+sphode=${SPHODE:-$BUILDDIR/sphode}
+stage=$(mktemp -d) || exit 99
+trap 'rm -rf "$stage"' EXIT
+cd "$stage" || exit 99
+export OMP_WAIT_POLICY=passive
+wave=$SRCDIR/cases/acoustic-wave-1d.yml
+
+count=0
+ok() { # 0 or not, name
+  count=$((count + 1))
+  if [[ $1 == 0 ]]; then echo "ok $count - $2"; else echo "not ok $count - $2"; sed 's/^/# /' out err; fi
+}
+run() { # STATUS COMMAND...: standard output to out, errors to err; true where it exits with STATUS
+  local wanted=$1 status
+  shift
+  "$@" >out 2>err
+  status=$?
+  [[ $status == "$wanted" ]] && return
+  echo "# exit status $status, wanted $wanted: $*"
+  return 1
+}
+refused() { # STATUS, name, what the message says, arguments...
+  local status=$1 name=$2 says=$3
+  shift 3
+  run "$status" "$sphode" spectrum "$@" && grep -q "^sphode: .*$says" err && [[ ! -s out ]]
+  ok $? "$name"
+}
+
+# ---- sound on a lattice: all eigenvalues are imaginary, and Bogacki & Shampine's limit is sqrt(3)
+
+run 0 "$sphode" spectrum "$wave" -o wave --frozen --set spacing=1/32 &&
+  [[ -s wave/spectrum.csv && -s wave/spectrum.txt && -s wave/regions.csv ]] &&
+  cmp -s <(grep -v "^results\|^picture\|^$" out) <(grep -v "^$" wave/spectrum.txt) &&
+  [[ $(wc -l <wave/spectrum.csv) == 65 ]]
+ok $? "a spectrum leaves tables, and tells what stands in one of them"
+
+awk '/^oscillation/ { most = $4 } /^erk:bogacki-shampine/ { z = most * $2 }
+  END { print "# largest |Im| times the longest step: " z; exit !(z > 1.73 && z < 1.74) }' wave/spectrum.txt
+ok $? "the longest step of a scheme is that of its region"
+
+awk -F, 'NR > 1 { r = $2 < 0 ? -$2 : $2; if (r > most) most = r; if ($1 > grow || -$1 > grow) grow = $1 < 0 ? -$1 : $1 }
+  END { print "# " most, grow; exit !(grow < 0.01 * most) }' wave/spectrum.csv
+ok $? "waves neither grow nor decay"
+
+run 0 "$sphode" spectrum "$wave" -o later -q --frozen --set spacing=1/32 --until 0.1s && [[ ! -s out ]] &&
+  grep -q "t = 0.1 s, 64 eigenvalues, positions held" later/spectrum.txt
+ok $? "the state at another time"
+
+run 0 "$sphode" spectrum "$wave" -o few --frozen --set spacing=1/32 --integrators erk:zonneveld-5-3-4 &&
+  [[ $(cut -d, -f1 few/regions.csv | sort -u | grep -c erk:) == 1 ]]
+ok $? "regions of chosen integrators"
+
+# ---- refusals
+
+refused 1 "too many eigenvalues" "at most 4000.*--set spacing" "$SRCDIR/cases/taylor-green-2d.yml"
+refused 2 "an integrator that is not explicit" "no explicit integrator" "$wave" -o bad --set spacing=1/32 \
+  --integrators imex:ark324l2sa-4-2-3
+refused 1 "what ended stays" "force" "$wave" -o wave --set spacing=1/32
+run 0 "$sphode" spectrum --help && grep -q -- --frozen out
+ok $? "help"
+echo "1..$count"
