@@ -90,7 +90,7 @@ static int search_value(void *ctx, double t, double *value)
 static int find(sph_sim *sim, sph_watch *w, double a, double b, double value_b)
 {
   search s = {.sim = sim, .watch = w};
-  double value_a;
+  double value_a = NAN;
   w->root = b;
   w->behind = side(value_b);
   if (nothing(a, b)) return SPH_OK;
