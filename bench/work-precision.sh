@@ -7,8 +7,9 @@
 # SPHODE is the program (build/sphode), TO the folder, REPEAT how many runs the quickest of which counts (3).
 # Integrators that this SUNDIALS has not are left out.  An hour on two cores.
 set -euo pipefail
+program=$(realpath "${SPHODE:-build/sphode}")
 cd "$(dirname "$0")/.."
-sphode=$(realpath "${SPHODE:-build/sphode}")
+sphode=$program
 to=${TO:-docs/work-precision}
 stage=$(mktemp -d)
 trap 'rm -rf "$stage"' EXIT

@@ -92,6 +92,14 @@ static void put(const pages *to, const char *format, ...)
   }
 }
 
+/* Is a field a column of the text?  One that no run changes is left out. */
+static int differs(const work *w, int f)
+{
+  for (int k = 0; k < w->runs; k++)
+    if (w->run[k].error[f] > 0) return 1;
+  return f == w->shown;
+}
+
 static void put_head(const work *w, const pages *to)
 {
   const work_fields *fields = &w->fields;
@@ -106,8 +114,8 @@ static void put_head(const work *w, const pages *to)
   put(to, "\nreference    %s in steps of %.4g s (halved %d times, %ld evaluations)\n",
       w->reference.label, best->dt_fixed, w->halvings, best->stats.step.rhs_evaluations);
   put(to, "its error   ");
-  for (int f = 0; f < fields->n; f++)
-    put(to, "%s %s %.1e", f ? "," : "", fields->name[f], w->floor_of[f]);
+  for (int f = 0, n = 0; f < fields->n; f++)
+    if (differs(w, f)) put(to, "%s %s %.1e", n++ ? "," : "", fields->name[f], w->floor_of[f]);
   put(to, "%s\n%-12s ~ where an error is less than ten times that\n",
       w->poor ? ": MORE than a tenth of the least below" : ", from halving its steps", "");
 }
@@ -125,7 +133,8 @@ static void put_run(const work *w, const work_run *r, const pages *to)
     if (is_told(w, k)) put(to, " %11ld", cost_of(r, k));
   put(to, " %9.3g ", r->cpu);
   for (int f = 0; f < w->fields.n; f++)
-    put(to, " %c%8.2e", r->error[f] < 10 * w->floor_of[f] ? '~' : ' ', r->error[f]);
+    if (differs(w, f))
+      put(to, " %c%8.2e", r->error[f] < 10 * w->floor_of[f] ? '~' : ' ', r->error[f]);
   put(to, "\n");
 }
 
@@ -135,7 +144,8 @@ static void put_runs(const work *w, const pages *to)
   for (int k = 0; k < COSTS; k++)
     if (is_told(w, k)) put(to, " %11s", costs[k].title);
   put(to, " %9s ", "CPU [s]");
-  for (int f = 0; f < w->fields.n; f++) put(to, " %9.9s", w->fields.name[f]);
+  for (int f = 0; f < w->fields.n; f++)
+    if (differs(w, f)) put(to, " %9.9s", w->fields.name[f]);
   put(to, "\n");
   for (int k = 0, method = -1; k < w->runs; k++) {
     if (w->run[k].method != method) put(to, "%s\n", w->method[w->run[k].method].label);
@@ -144,14 +154,24 @@ static void put_runs(const work *w, const pages *to)
   }
 }
 
+/* The longest label, and no less than is usual. */
+static int label_width(const work *w)
+{
+  int width = 34;
+  for (int m = 0; m < w->methods; m++)
+    if ((int)strlen(w->method[m].label) > width) width = (int)strlen(w->method[m].label);
+  return width;
+}
+
 static void put_needed(const work *w, const pages *to, const char *what,
                        double (*of)(const work_run *r))
 {
-  put(to, "\n%s for an error of %s of\n%-34s", what, w->fields.name[w->shown], "");
+  const int width = label_width(w);
+  put(to, "\n%s for an error of %s of\n%-*s", what, w->fields.name[w->shown], width, "");
   for (int k = 0; k < LEVELS; k++) put(to, " %9.0e", levels[k]);
   put(to, "\n");
   for (int m = 0; m < w->methods; m++) {
-    put(to, "%-34s", w->method[m].label);
+    put(to, "%-*s", width, w->method[m].label);
     for (int k = 0; k < LEVELS; k++) {
       double value = needed(w, m, levels[k], of);
       if (isnan(value))
