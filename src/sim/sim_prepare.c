@@ -305,19 +305,24 @@ static int admissible(double t, N_Vector y, void *ctx)
   return SPH_OK;
 }
 
+sph_problem sph_sim_prepare_problem(sph_sim *sim)
+{
+  return (sph_problem){.ctx = sim,
+                       .threads = sim->threads,
+                       .drift = (sim->loop_terms & SPH_XSPH) != 0,
+                       .rhs = sph_sim_rhs,
+                       .weights = sph_sim_weights,
+                       .rhs_piece = sph_sim_rhs_piece,
+                       .limits = limits,
+                       .limits_fast = limits_fast,
+                       .solve = sim->implicit ? sph_sim_implicit_solve : NULL,
+                       .admissible = admissible,
+                       .error = &sim->error};
+}
+
 static int make_integrator(sph_sim *sim)
 {
-  sph_problem problem = {.ctx = sim,
-                         .threads = sim->threads,
-                         .drift = (sim->loop_terms & SPH_XSPH) != 0,
-                         .rhs = sph_sim_rhs,
-                         .weights = sph_sim_weights,
-                         .rhs_piece = sph_sim_rhs_piece,
-                         .limits = limits,
-                         .limits_fast = limits_fast,
-                         .solve = sim->implicit ? sph_sim_implicit_solve : NULL,
-                         .admissible = admissible,
-                         .error = &sim->error};
+  const sph_problem problem = sph_sim_prepare_problem(sim);
   sim->integrator = sph_integrator_create(&sim->integrator_def, &problem, sim->time, sim->y,
                                           sim->context, &sim->error);
   return sim->error.status;

@@ -5,6 +5,8 @@
 #include "sim_data.h"
 
 int sph_sim_prepare(sph_sim *sim);
+/* What integrators ask of the simulation. */
+sph_problem sph_sim_prepare_problem(sph_sim *sim);
 /* What is made of the smoothing length. */
 void sph_sim_prepare_h(sph_sim *sim);
 void sph_sim_prepare_undo(sph_sim *sim); /* lets go of all that it made */
