@@ -210,6 +210,8 @@ void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def)
     sim->integrator_def.method = def->method ? sim->method : NULL;
     if (def->linear) snprintf(sim->linear, sizeof sim->linear, "%s", def->linear);
     sim->integrator_def.linear = def->linear ? sim->linear : NULL;
+    if (def->fast_method) snprintf(sim->fast, sizeof sim->fast, "%s", def->fast_method);
+    sim->integrator_def.fast_method = def->fast_method ? sim->fast : NULL;
     if (def->controller)
       sim->integrator_def.controller = sph_controller_find(def->controller, &sim->error)->name;
     if (def->own) {

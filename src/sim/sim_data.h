@@ -103,7 +103,7 @@ struct sph_sim {
   sph_modifying modifier[SPH_MODIFIERS_MAX];
   double set_scale[SPH_SETS_MAX + 1][SPH_FIELDS]; /* the user's, 0: none; last: of all fluids */
   sph_integrator_def integrator_def;
-  char method[SPH_METHOD_MAX], linear[SPH_METHOD_MAX];
+  char method[SPH_METHOD_MAX], linear[SPH_METHOD_MAX], fast[SPH_METHOD_MAX];
   sph_scheme scheme; /* the user's own, copied; its name is method */
   int (*progress)(void *ctx, sph_sim *sim);
   void *progress_ctx;

@@ -366,6 +366,22 @@ static void wrong_parts(void **state)
   refused(sim, "steps all terms alike");
 }
 
+/* Names are copied: what they stood in may be gone when the run begins. */
+static void names_are_copied(void **state)
+{
+  (void)state;
+  char method[] = "mri:kw3", fast[] = "erk:zonneveld-5-3-4", term[] = "pressure", part[] = "fast";
+  sph_sim *sim = tank();
+  sph_sim_set_part(sim, term, part);
+  sph_sim_set_integrator(sim, &(sph_integrator_def){.method = method, .fast_method = fast});
+  memset(method, 'x', sizeof method - 1);
+  memset(fast, 'x', sizeof fast - 1);
+  memset(term, 'x', sizeof term - 1);
+  memset(part, 'x', sizeof part - 1);
+  if (sph_sim_step(sim)) fail_msg("%s", sph_sim_error(sim));
+  sph_sim_free(sim);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -373,6 +389,7 @@ int main(void)
       cmocka_unit_test(local_parts_are_cheap),
       cmocka_unit_test(limits_of_parts),
       cmocka_unit_test(wrong_parts),
+      cmocka_unit_test(names_are_copied),
   };
   return cmocka_run_group_tests_name("parts", tests, NULL, NULL);
 }
