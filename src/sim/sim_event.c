@@ -186,14 +186,10 @@ int sph_sim_event_happen(sph_sim *sim, double t, int *cut)
   return !status && snapshot ? sph_sim_run_frame_all(sim) : status;
 }
 
+/* Sides are told before the integrator starts anew: then it has no rates until its next step. */
 int sph_sim_event_cut(sph_sim *sim, double t)
 {
   int status = sph_sim_run_show(sim, t);
-  if (!status && t < sph_integrator_time(sim->integrator)) {
-    N_VScale(1, sim->frame, sim->y);
-    status = sph_integrator_go_on(sim->integrator, t);
-    if (!status) status = sph_sim_run_show(sim, t);
-  }
   for (int k = 0; !status && k < sim->watches; k++) {
     sph_watch *w = &sim->watch[k];
     double value = NAN;
@@ -201,7 +197,10 @@ int sph_sim_event_cut(sph_sim *sim, double t)
     if (looked_past) status = value_now(sim, w, &value);
     if (looked_past || w->happened) w->side = side(value);
   }
-  return status;
+  if (status || t >= sph_integrator_time(sim->integrator)) return status;
+  N_VScale(1, sim->frame, sim->y);
+  status = sph_integrator_go_on(sim->integrator, t);
+  return status ? status : sph_sim_run_show(sim, t);
 }
 
 static int change(sph_sim *sim, const sph_watch *w)
