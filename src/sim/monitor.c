@@ -18,9 +18,10 @@ enum { FRONT_NEIGHBORS = 3, SAMPLES_MAX = 32, NAME_MAX = 63 };
 typedef struct points {
   int dim;
   long n;
-  double *x[3]; /* [n] [m]; 0 for d >= dim */
-  double *p;    /* [n] [Pa]; 0 where the pressure is not asked for */
-  double *v;    /* [n] volumes */
+  double length[3]; /* of the periodic box; 0: not periodic that way [m] */
+  double *x[3];     /* [n] [m], not wrapped; 0 for d >= dim */
+  double *p;        /* [n] [Pa]; 0 where the pressure is not asked for */
+  double *v;        /* [n] volumes */
   void *memory;
 } points;
 
@@ -41,15 +42,23 @@ static int take_points(points *all, long capacity, int dim, sph_error *error)
   return SPH_OK;
 }
 
-/* Copies the particles of the chosen groups that lie in [lo, hi]. */
-static int gather(const sph_monitor *monitor, const sph_sim *sim, int pressure, const double lo[3],
-                  const double hi[3], points *all, sph_error *error)
+/* A distance, the shortest one across periodic boundaries. */
+static double apart(const points *all, int d, double s)
+{
+  return all->length[d] > 0 ? s - all->length[d] * nearbyint(s / all->length[d]) : s;
+}
+
+/* Copies the particles of the chosen groups that are within `reach` of the monitor's place in each
+ * direction; NULL: all. */
+static int gather(const sph_monitor *monitor, const sph_sim *sim, int pressure, const double *reach,
+                  points *all, sph_error *error)
 {
   const sph_group *group;
   long capacity = 0;
   for (int k = 0; (group = sph_sim_group_get(sim, k)); k++)
     if (chosen(monitor, group)) capacity += sph_group_count(group);
   if (take_points(all, capacity, sph_sim_dim(sim), error) != SPH_OK) return SPH_ERR_MEMORY;
+  for (int d = 0; d < all->dim; d++) sph_sim_periodic(sim, d, NULL, &all->length[d]);
   for (int k = 0; (group = sph_sim_group_get(sim, k)); k++) {
     if (!chosen(monitor, group)) continue;
     const double *x[3] = {NULL}, *p = pressure ? sph_group_read(group, "pressure", 0) : NULL;
@@ -57,7 +66,8 @@ static int gather(const sph_monitor *monitor, const sph_sim *sim, int pressure, 
     for (int d = 0; d < all->dim; d++) x[d] = sph_group_read(group, "position", d);
     for (long i = 0; i < sph_group_count(group); i++) {
       int inside = 1;
-      for (int d = 0; d < all->dim; d++) inside &= x[d][i] >= lo[d] && x[d][i] <= hi[d];
+      for (int d = 0; reach && d < all->dim; d++)
+        inside &= fabs(apart(all, d, x[d][i] - monitor->x[d])) <= reach[d];
       if (!inside) continue;
       for (int d = 0; d < all->dim; d++) all->x[d][all->n] = x[d][i];
       all->p[all->n] = p ? p[i] : 0;
@@ -83,7 +93,7 @@ static int near(const points *all, int i, int j, double reach)
 {
   double r2 = 0;
   for (int d = 0; d < all->dim; d++) {
-    double x = all->x[d][i] - all->x[d][j];
+    double x = apart(all, d, all->x[d][i] - all->x[d][j]);
     r2 += x * x;
   }
   return r2 <= reach * reach * (1 + 1e-12);
@@ -126,12 +136,10 @@ static double front(const points *all, int *order, int axis, double dx)
 static int value_front(const sph_monitor *monitor, const sph_sim *sim, double *value,
                        sph_error *error)
 {
-  static const double lo[3] = {-INFINITY, -INFINITY, -INFINITY};
-  static const double hi[3] = {INFINITY, INFINITY, INFINITY};
   int axis = strcmp(monitor->type, "height") ? monitor->axis : sph_sim_dim(sim) - 1;
   points all = {0};
   int *order = NULL;
-  int status = gather(monitor, sim, 0, lo, hi, &all, error);
+  int status = gather(monitor, sim, 0, NULL, &all, error);
   if (status == SPH_OK) {
     order = SPH_NEW(int, all.n, "a monitor", error);
     status = order ? SPH_OK : SPH_ERR_MEMORY;
@@ -151,7 +159,7 @@ static double cover(const points *near_by, const double x[3], const sph_kernel *
   for (long j = 0; j < near_by->n; j++) {
     double r2 = 0;
     for (int d = 0; d < near_by->dim; d++) {
-      double s = near_by->x[d][j] - x[d];
+      double s = apart(near_by, d, near_by->x[d][j] - x[d]);
       r2 += s * s;
     }
     double w = near_by->v[j] * sph_kernel_w(kernel, near_by->dim, sqrt(r2), h);
@@ -197,16 +205,13 @@ static double pressure_mean(const sph_monitor *monitor, const points *near_by,
 static int gather_near(const sph_monitor *monitor, const sph_sim *sim, int pressure,
                        const sph_kernel *kernel, points *near_by, sph_error *error)
 {
-  double lo[3], hi[3];
+  double reach[3];
   if (!kernel)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "monitor %s: kernel \"%s\" is not known",
                          monitor->name, sph_sim_kernel(sim));
-  for (int d = 0; d < 3; d++) {
-    double reach = monitor->extent[d] + sph_kernel_support(kernel) * sph_sim_h(sim);
-    lo[d] = monitor->x[d] - reach;
-    hi[d] = monitor->x[d] + reach;
-  }
-  return gather(monitor, sim, pressure, lo, hi, near_by, error);
+  for (int d = 0; d < 3; d++)
+    reach[d] = monitor->extent[d] + sph_kernel_support(kernel) * sph_sim_h(sim);
+  return gather(monitor, sim, pressure, reach, near_by, error);
 }
 
 int sph_monitor_cover(const sph_monitor *monitor, const sph_sim *sim, double *sum, sph_error *error)

@@ -245,6 +245,38 @@ static void wet_and_dry(void **state)
   }
 }
 
+/* A uniform stream through a periodic box: its points stay wet, whatever went by and wherever they
+ * are, and have its pressure. */
+static void points_of_periodic_boxes(void **state)
+{
+  (void)state;
+  sph_sim *sim =
+      sph_sim_create(&(sph_sim_def){.dim = 2, .dx = dx, .periodic = {1, 1}, .length = {1, 1}});
+  sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1, 1}, 1000);
+  sph_group_set_eos(water, sph_eos_tait(1000, 10, 7));
+  double *v = sph_group_write(water, "velocity", 0), *rho = sph_group_write(water, "density", 0);
+  for (long i = 0; i < sph_group_count(water); i++) v[i] = 1, rho[i] = 1010;
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, sph_term_pressure());
+  for (int k = 0; k < 2; k++)
+    sph_sim_add_event(sim, &(sph_event){.name = k ? "dry" : "wet",
+                                        .type = k ? "dry" : "wet",
+                                        .x = {0.02, 0.98}});
+  for (int k = 0; k < 5; k++) {
+    const sph_monitor at = {.name = "p",
+                            .type = "pressure",
+                            .x = {0.02, 0.98},
+                            .extent = {0.1 * k, 0.1 * k}};
+    double value;
+    good(sim, sph_sim_run(sim, 0.65 * k));
+    good(sim, sph_monitor_value(&at, sim, &value, &(sph_error){0}));
+    assert_near(value, sph_group_read(water, "pressure", 0)[0], 1e-6 * value);
+    assert_true(value > 1000);
+  }
+  assert_int_equal(count_of(sim, 0, NULL, NULL) + count_of(sim, 1, NULL, NULL), 0);
+  sph_sim_free(sim);
+}
+
 /* The front of a dam break, a maximum over particles that change: between the rows of a series of
  * frames, five a step or more. */
 typedef struct series {
@@ -728,6 +760,7 @@ int main(void)
       cmocka_unit_test(moments_are_exact),
       cmocka_unit_test(of_every_integrator),
       cmocka_unit_test(wet_and_dry),
+      cmocka_unit_test(points_of_periodic_boxes),
       cmocka_unit_test(front_of_a_dam_break),
       cmocka_unit_test(ends_of_steps_count_once),
       cmocka_unit_test(many_in_a_step),
