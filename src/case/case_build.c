@@ -105,6 +105,8 @@ static int build_group(builder *b, const sph_case_node *map)
   int wall = !strcmp(get_text(map, "kind", ""), "wall"), status;
   if (wall && initial) return fail(b, initial, "a wall has no initial state; see boundary: motion");
   if (!wall && boundary) return fail(b, boundary, "a fluid has no boundary; a wall has");
+  if (wall && child_of(map, "scales"))
+    return fail(b, child_of(map, "scales"), "a wall has no scales: it integrates nothing");
   sph_group *group = sph_group_create(b->sim, map->key, get_text(map, "kind", ""));
   if (!told(b, map)) sph_case_material_set(b->sim, group, map);
   status = told(b, material ? material : eos ? eos : map);

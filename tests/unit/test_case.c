@@ -16,6 +16,8 @@
 #include "case_schema.h"
 #include "case_unit.h"
 #include "case_value.h"
+#include "controller.h"
+#include "linear.h"
 #include "memory.h"
 #include "sphode.h"
 
@@ -394,6 +396,47 @@ static void heat_that_cannot_be(void **state)
   }
 }
 
+static void a_wall_has_no_scales(void **state)
+{
+  static const char text[] =
+      "dimension: 1\nspacing: 0.1\ngroups:\n"
+      "  water: {kind: fluid, density: 1000, eos: {tait: {sound_speed: 10}},\n"
+      "    shapes: [{box: {lower: [0], upper: [1]}}]}\n"
+      "  wall: {kind: wall, scales: {velocity: 1 m/s}, density: 1000,\n"
+      "    shapes: [{box: {lower: [1], upper: [2]}}]}\n"
+      "terms: {continuity: , pressure: }\nrun: {end: 1}\n";
+  sph_error error = {0};
+  (void)state;
+  sph_case *c = sph_case_read_text("bad.yml", text, strlen(text), 0, NULL, &error);
+  if (!c) fail_msg("%s", error.text);
+  assert_null(sph_case_build(c, 1, &error));
+  assert_non_null(strstr(error.text, "bad.yml:6:22: a wall has no scales"));
+  sph_case_free(c);
+}
+
+/* Words that the schema spells out are those of the library. */
+static void words_of_the_library(void **state)
+{
+  static const struct {
+    const char *key;
+    const char *(*name)(int k);
+  } table[] = {{"linear", sph_linear_name}, {"controller", sph_controller_name}};
+  (void)state;
+  for (size_t t = 0; t < sizeof table / sizeof *table; t++) {
+    const sph_case_key *key;
+    char word[80];
+    for (int k = 0; (key = sph_case_schema_key(k)); k++)
+      if (!strcmp(key->mapping, "integrator") && !strcmp(key->name, table[t].key)) break;
+    assert_non_null(key);
+    int k = 0;
+    for (; table[t].name(k); k++) {
+      assert_non_null(sph_case_schema_choice(key, k, word));
+      assert_string_equal(word, table[t].name(k));
+    }
+    assert_null(sph_case_schema_choice(key, k, word));
+  }
+}
+
 /* ---- broken files */
 
 static void check_broken(const char *directory, const char *file)
@@ -506,6 +549,8 @@ int main(void)
       cmocka_unit_test(materials_are_what_the_file_says),
       cmocka_unit_test(a_preset_without_that_sound_speed),
       cmocka_unit_test(heat_that_cannot_be),
+      cmocka_unit_test(a_wall_has_no_scales),
+      cmocka_unit_test(words_of_the_library),
       cmocka_unit_test(broken_files_say_what_is_wrong),
       cmocka_unit_test(bombs_and_garbage_are_refused_at_once),
       cmocka_unit_test(a_file_that_is_not_there),
