@@ -52,12 +52,12 @@ int sph_prog_error(int status, const char *format, ...) SPH_PRINTF(2, 3);
 int sph_prog_directory_take(const char *directory, int force);
 
 typedef struct prog_progress {
-  double end;          /* [s] */
-  double start, shown; /* wall time [s] */
-  double tenth;        /* of the run, told last */
-  double deadline;     /* the run is stopped then [s]; 0: never */
-  int quiet, live;     /* live: one line that is written over */
-  long bound_by[8];    /* at the last line */
+  double end;                     /* [s] */
+  double start, shown;            /* wall time [s] */
+  double tenth;                   /* of the run, told last */
+  double deadline;                /* the run is stopped then [s]; 0: never */
+  int quiet, live;                /* live: one line that is written over */
+  long bound_by[SPH_BOUND_COUNT]; /* at the last line */
 } prog_progress;
 
 /* Reports a run that is to go to time `end`; SIGINT and SIGTERM stop it. */

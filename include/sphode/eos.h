@@ -24,6 +24,7 @@ struct sph_eos {
   double grueneisen;   /* Mie-Grueneisen: Gamma0 = (rho/rho0) (dp/du)_rho/rho [1] */
   double c_v;          /* specific heat at constant volume [J/(kg K)]; 0: unknown, no temperature */
   int thermal;         /* 1: p depends on the internal energy u, which is then integrated */
+  int dust;            /* 1: no pressure; nothing of a fluid or a wall acts on it but drag */
   /* Called from several threads at once, on different particles: read ctx, do not write to it.
    * p[n] [Pa] and c[n] [m/s] of rho[n] [kg/m^3] > 0 and u[n] [J/kg] (u is NULL unless thermal).
    * c = NaN (or infinite) says that there is no such state: the step is tried again, smaller. */
@@ -83,6 +84,9 @@ SPH_API sph_eos sph_eos_stiffened_gas(double rho0, double gamma, double p_inf, d
  *   chi < 0:  p = c0^2 (rho - rho0) + Gamma0 rho0 u
  * No state at chi >= 1/s.  u = 0 at rho0 and 298.15 K. */
 SPH_API sph_eos sph_eos_mie_grueneisen(double rho0, double c0, double slope, double grueneisen);
+/* Dust: p = c = 0.  Its particles have a density of their own kind, fly freely through walls and
+ * each other, feel body forces, and exchange momentum with fluids by drag (sph_term_drag). */
+SPH_API sph_eos sph_eos_dust(void);
 
 /* Has it a temperature (c_v > 0)?  NULL: 0. */
 SPH_API int sph_eos_has_temperature(const sph_eos *eos);

@@ -126,27 +126,13 @@ typedef struct sph_integrator_missing {
 /* Row k = 0, 1, ...; returns 0 behind the last. */
 SPH_API int sph_integrator_missing_get(int k, sph_integrator_missing *missing);
 
-/* What happened so far. */
-typedef struct sph_step_stats {
-  long steps;                /* accepted */
-  long rejected;             /* failed error tests */
-  long retries;              /* attempts repeated with half the step after SPH_RETRY */
-  long rhs_evaluations;      /* also of the explicit part alone */
-  long fast_evaluations;     /* of the fast part alone */
-  long fast_steps;           /* of the fast part */
-  long fast_rejected;        /* of them: repeated with a smaller one */
-  long implicit_evaluations; /* of the implicit part alone */
-  long solves;               /* of implicit stages */
-  long solve_iterations;     /* of linear solvers in them */
-  long bound_by[8];          /* accepted steps by what bound them: enum sph_bound */
-  double dt_last, dt_smallest, dt_largest; /* [s] */
-} sph_step_stats;
-
+/* What bounds a step. */
 enum sph_bound {
   SPH_BOUND_CFL,     /* acoustic limit */
   SPH_BOUND_VISCOUS, /* laminar viscosity */
   SPH_BOUND_FORCE,
   SPH_BOUND_CONDUCTION,
+  SPH_BOUND_DRAG,  /* between dust and fluids */
   SPH_BOUND_ERROR, /* error control */
   SPH_BOUND_STOP,  /* an exact stop time */
   SPH_BOUND_USER,  /* dt_max, dt_fixed or a user's term */
@@ -154,6 +140,22 @@ enum sph_bound {
   SPH_BOUND_COUNT
 };
 SPH_API const char *sph_bound_name(int bound); /* "cfl", "viscous", ... */
+
+/* What happened so far. */
+typedef struct sph_step_stats {
+  long steps;                     /* accepted */
+  long rejected;                  /* failed error tests */
+  long retries;                   /* attempts repeated with half the step after SPH_RETRY */
+  long rhs_evaluations;           /* also of the explicit part alone */
+  long fast_evaluations;          /* of the fast part alone */
+  long fast_steps;                /* of the fast part */
+  long fast_rejected;             /* of them: repeated with a smaller one */
+  long implicit_evaluations;      /* of the implicit part alone */
+  long solves;                    /* of implicit stages */
+  long solve_iterations;          /* of linear solvers in them */
+  long bound_by[SPH_BOUND_COUNT]; /* accepted steps by what bound them */
+  double dt_last, dt_smallest, dt_largest; /* [s] */
+} sph_step_stats;
 
 /* ---- linear stability ----
  * Of y' = lambda y with steps dt, z = lambda dt.  The amplification of an explicit Runge-Kutta

@@ -78,11 +78,12 @@ struct sph_term {
   const char *name; /* "pressure", ... or the user's own; copied when attached */
   /* Parameters of the built-in terms; each constructor says which it reads. */
   /* continuity: "c2" (NULL), "c1", "phi"; pressure: "c2" (NULL), "s", "phi"; delta: "molteni",
-   * "antuono", "fourtakas"; viscosity-laminar: "morris" (NULL), "mcg" */
+   * "antuono", "fourtakas"; viscosity-laminar: "morris" (NULL), "mcg"; drag: "K" (NULL), "time" */
   const char *form;
   double alpha, beta; /* artificial viscosities; alpha: artificial conductivity */
   double delta;       /* density diffusion */
   double epsilon;     /* xsph */
+  double drag;        /* drag: K [kg/m^3/s], or the stopping time [s] */
   double exponent;    /* continuity of form phi: phi = rho^exponent */
   int calibrate;      /* summation */
   double g[3];        /* uniform body force [m/s^2] */
@@ -94,8 +95,8 @@ struct sph_term {
   double (*power)(void *ctx, const double x[3], double t);
   /* A user's own (NULL in built-in pair terms): */
   int (*body)(const sph_term *term, const sph_particles *particles); /* 0, SPH_RETRY or < 0 */
-  /* Pairs of fluid particles with fluid and wall ones, tile by tile, beside the built-in terms.
-   * Called from several threads at once: read ctx, do not write to it. */
+  /* Pairs of fluid particles with fluid and wall ones, but none with dust, tile by tile, beside the
+   * built-in terms.  Called from several threads at once: read ctx, do not write to it. */
   void (*pair)(const sph_term *term, const sph_tile *tile);
   /* Fields that pair wants of both ends, as "density sound_speed".  Of a term without pair: ""
    * where body and dt_max read nothing that is not integrated (p, c, u beside another energy, a
@@ -151,6 +152,12 @@ SPH_API sph_term sph_term_conductivity_artificial(double alpha_u);
 /* Density diffusion of the delta-SPH family: model "molteni", "antuono" or "fourtakas" (which
  * takes the hydrostatic density of the uniform body force out); delta >= 0, usually 0.1. */
 SPH_API sph_term sph_term_delta(const char *model, double delta);
+/* Drag between dust (sph_eos_dust) and fluids, a force per volume K (v_fluid - v_dust) on the dust
+ * (Monaghan & Kocharyan 1995; Laibe & Price 2012), whose heat goes to the fluid: K >= 0
+ * [kg/m^3/s], or K = rho_dust/t_s by the stopping time t_s > 0 [s] of a grain in a fluid at rest.
+ * The relative velocity of both decays with t = rho_f rho_d/(K (rho_f + rho_d)). */
+SPH_API sph_term sph_term_drag(double K);
+SPH_API sph_term sph_term_drag_time(double t_s);
 /* Uniform body force g[3] [m/s^2]; several add up. */
 SPH_API sph_term sph_term_gravity(const double g[3]);
 /* Central harmonic body force a = -omega^2 x [1/s]: the oscillating drop. */

@@ -257,6 +257,9 @@ sph_term sph_case_build_term(const sph_case_node *map)
   if (!strcmp(name, "conductivity-artificial")) return sph_term_conductivity_artificial(alpha);
   if (!strcmp(name, "delta"))
     return sph_term_delta(get_text(map, "model", NULL), get_number(map, "delta", 0));
+  if (!strcmp(name, "drag"))
+    return child_of(map, "coefficient") ? sph_term_drag(get_number(map, "coefficient", 0))
+                                        : sph_term_drag_time(get_number(map, "stopping_time", 0));
   if (!strcmp(name, "harmonic")) return sph_term_harmonic(get_number(map, "omega", 0));
   get_vector(map, "acceleration", g);
   return sph_term_gravity(g);

@@ -43,7 +43,7 @@ static int unknown_key(sph_case *c, const char *mapping, const sph_case_node *no
     if (!strcmp(sph_case_schema_key(k)->mapping, mapping))
       sph_words_add(&w, sph_case_schema_key(k)->name);
   return FAIL_KEY(node, "unknown key '%.40s' in %s; %sknown: %s", node->key, mapping, w.nearest,
-                  w.known);
+                  w.known[0] ? w.known : "none");
 }
 
 /* ---- numbers */
@@ -336,6 +336,16 @@ static int check_forms(sph_case *c)
                               summation ? "" : row);
 }
 
+static int check_drag(sph_case *c)
+{
+  const sph_case_node *drag = sph_case_reader_find(sph_case_reader_find(c->root, "terms"), "drag");
+  const sph_case_node *K = sph_case_reader_find(drag, "coefficient");
+  const sph_case_node *time = sph_case_reader_find(drag, "stopping_time");
+  if (!drag || !K != !time) return SPH_OK;
+  if (K) return FAIL_KEY(time, "drag: found both coefficient and stopping_time; one is right");
+  return FAIL_KEY(drag, "missing key 'coefficient' or 'stopping_time' in drag");
+}
+
 int sph_case_check(sph_case *c)
 {
   sph_case_node *dimension = sph_case_reader_find(c->root, "dimension");
@@ -349,5 +359,6 @@ int sph_case_check(sph_case *c)
   if (!status) status = check_fluid(c);
   if (!status) status = sph_case_material_check(c);
   if (!status) status = sph_case_event_check(c);
+  if (!status) status = check_drag(c);
   return status ? status : check_forms(c);
 }

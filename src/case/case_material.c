@@ -130,6 +130,7 @@ static sph_eos eos_of(sph_sim *sim, const sph_case_node *kind, double density)
   if (!strcmp(name, "mie-grueneisen"))
     return sph_eos_mie_grueneisen(density, c0, get_number(kind, "slope", 0),
                                   get_number(kind, "grueneisen", 0));
+  if (!strcmp(name, "dust")) return sph_eos_dust();
   if (!child_of(kind, "molar_mass")) return sph_eos_ideal_gas(gamma);
   return sph_eos_ideal_gas_molar(gamma, get_number(kind, "molar_mass", 0));
 }

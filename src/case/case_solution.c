@@ -171,6 +171,45 @@ static int heat_step_at(const moment *m, const char *field, int c, double *to, s
   return sph_exact_heat_step_at(&step, m->time, m->n, m->x[0], to, error);
 }
 
+static int is_dust(const moment *m)
+{
+  const sph_eos *eos = sph_group_eos(m->group);
+  return eos && eos->dust;
+}
+
+static sph_exact_stream stream_of(const sph_case_node *map)
+{
+  return (sph_exact_stream){.rho = get_number(map, "density", 0),
+                            .v = get_number(map, "velocity", 0)};
+}
+
+static int dusty_box_at(const moment *m, const char *field, int c, double *to, sph_error *error)
+{
+  sph_exact_dusty_box box = {.fluid = stream_of(child_of(m->reference, "fluid")),
+                             .dust = stream_of(child_of(m->reference, "dust")),
+                             .K = get_number(m->reference, "coefficient", 0)};
+  sph_exact_streams streams;
+  if (!is(field, "velocity")) return SPH_CASE_NO_FIELD;
+  int status = sph_exact_dusty_box_at(&box, m->time, &streams, error);
+  for (long i = 0; i < m->n && !status; i++)
+    to[i] = c > 0 ? 0 : is_dust(m) ? streams.dust : streams.fluid;
+  return status;
+}
+
+static int dusty_wave_at(const moment *m, const char *field, int c, double *to, sph_error *error)
+{
+  sph_exact_dusty_wave wave = {.rho_fluid = get_number(m->reference, "fluid_density", 0),
+                               .rho_dust = get_number(m->reference, "dust_density", 0),
+                               .c = get_number(m->reference, "sound_speed", 0),
+                               .K = get_number(m->reference, "coefficient", 0),
+                               .amplitude = get_number(m->reference, "amplitude", 0),
+                               .k = 2 * pi / get_number(m->reference, "length", 0)};
+  if (!is(field, "velocity")) return SPH_CASE_NO_FIELD;
+  memset(to, 0, (size_t)m->n * sizeof *to);
+  if (c > 0) return SPH_OK;
+  return sph_exact_dusty_wave_at(&wave, m->time, is_dust(m), m->n, m->x[0], NULL, to, error);
+}
+
 static const sph_case_solution solutions[] = {
     {"riemann", "a Riemann problem has density, velocity, pressure, energy", 0, riemann_at},
     {"column", "a column at rest has pressure, density", SPH_CASE_ALONG_LAST, column_at},
@@ -181,6 +220,8 @@ static const sph_case_solution solutions[] = {
     {"heat-mode", "conduction has temperature", 0, heat_mode_at},
     {"heat-step", "conduction has temperature", 0, heat_step_at},
     {"wave", "a wave has density, velocity, pressure", 0, wave_at},
+    {"dusty-box", "streams have velocity", SPH_CASE_ALONG_NONE, dusty_box_at},
+    {"dusty-wave", "a wave in dusty gas has velocity", 0, dusty_wave_at},
 };
 
 const sph_case_solution *sph_case_solution_find(const char *reference)

@@ -140,4 +140,36 @@ typedef struct sph_exact_wave {
 /* Density, velocity, pressure at x [m] and t [s]. */
 sph_exact_gas sph_exact_wave_at(const sph_exact_wave *wave, double t, double x);
 
+/* --- A fluid with dust in it: two uniform streams; sound --- */
+
+typedef struct sph_exact_stream {
+  double rho, v; /* density [kg/m^3] > 0, velocity at the start [m/s] */
+} sph_exact_stream;
+
+typedef struct sph_exact_dusty_box {
+  sph_exact_stream fluid, dust;
+  double K; /* of the drag [kg/m^3/s], >= 0 */
+  double u; /* internal energy of the fluid at the start [J/kg] */
+} sph_exact_dusty_box;
+
+typedef struct sph_exact_streams {
+  double fluid, dust, u; /* velocities [m/s], internal energy of the fluid [J/kg] */
+} sph_exact_streams;
+
+int sph_exact_dusty_box_at(const sph_exact_dusty_box *box, double t, sph_exact_streams *streams,
+                           sph_error *error);
+
+typedef struct sph_exact_dusty_wave {
+  double rho_fluid, rho_dust; /* at rest [kg/m^3], > 0 */
+  double c;                   /* sound speed of the fluid alone [m/s], > 0 */
+  double K;                   /* of the drag [kg/m^3/s], >= 0 */
+  double amplitude;           /* of both densities at the start, relative */
+  double k;                   /* wave number [1/m], > 0 */
+} sph_exact_dusty_wave;
+
+/* Density rho[n] [kg/m^3] and velocity v[n] [m/s] of the fluid, or of the dust, at x[n] [m] at time
+ * t >= 0 [s]; either may be NULL. */
+int sph_exact_dusty_wave_at(const sph_exact_dusty_wave *wave, double t, int dust, long n,
+                            const double *x, double *rho, double *v, sph_error *error);
+
 #endif

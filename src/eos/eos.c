@@ -29,6 +29,7 @@ static const struct {
      "p = rho0 c0^2 chi (1 - Gamma0 chi/2)/(1 - s chi)^2 + Gamma0 rho0 u, chi = 1 - rho0/rho; "
      "chi < 0: c0^2 (rho - rho0) + Gamma0 rho0 u",
      sph_eos_mie_grueneisen_check},
+    {"dust", "p = 0, c = 0", sph_eos_dust_check},
 };
 enum { ROWS = sizeof table / sizeof table[0] };
 
@@ -159,6 +160,7 @@ int sph_eos_check(const sph_eos *eos, sph_error *error)
     return sph_error_set(error, SPH_ERR_ARGUMENT,
                          "eos %s: c_v = %g J/(kg K) must be positive and finite, or 0 for unknown",
                          eos->name, eos->c_v);
+  if (eos->dust) return sph_eos_dust_check(eos, error);
   int status = eos->thermal ? SPH_OK : check_barotropic(eos, error), k = row(eos->name);
   return status || k < 0 ? status : table[k].check(eos, error);
 }

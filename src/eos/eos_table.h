@@ -18,6 +18,7 @@ int sph_eos_polytropic_check(const sph_eos *eos, sph_error *error);
 int sph_eos_ideal_gas_check(const sph_eos *eos, sph_error *error);
 int sph_eos_stiffened_gas_check(const sph_eos *eos, sph_error *error);
 int sph_eos_mie_grueneisen_check(const sph_eos *eos, sph_error *error);
+int sph_eos_dust_check(const sph_eos *eos, sph_error *error); /* of a user's own, too */
 
 /* ... and what several of them share: rho0, c0 positive; thermal, without p_background and p_min;
  * gases whose pressure at rho0 is p0. */

@@ -63,7 +63,12 @@ static int settable(sph_group *group, const char *what)
 
 void sph_group_set_eos(sph_group *group, sph_eos eos)
 {
-  if (!settable(group, "the equation of state") || sph_eos_check(&eos, &group->sim->error)) {
+  int kept = settable(group, "the equation of state") && !sph_eos_check(&eos, &group->sim->error);
+  if (kept && group->wall && eos.dust)
+    kept = !sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
+                         "group %s is a wall: it has the equation of state of a fluid, not of dust",
+                         group->name);
+  if (!kept) {
     if (eos.free) eos.free(eos.ctx);
     return;
   }

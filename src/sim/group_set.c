@@ -110,7 +110,7 @@ void sph_group_set_column(sph_group *group, int axis, double surface, double p_s
                  group->name, axis, surface, p_surface, g, group->dim);
     return;
   }
-  if (group->eos.thermal) {
+  if (group->eos.thermal || group->eos.dust) {
     sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s: hydrostatic needs a liquid, not %s",
                  group->name, group->eos.name);
     return;

@@ -25,6 +25,7 @@ int sph_sim_admit_retry(sph_sim *sim, const char *format, ...)
 static void count(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
+  sph_pair_function *loop = sph_count_loop(sim->isa, sim->dim);
   const count_constants constants = {.H2 = sim->H * sim->H, .near2 = 0.01 * sim->dx * sim->dx};
   sim->near = 0;
   sim->pairs_now = 0;
@@ -33,11 +34,14 @@ static void count(sph_evaluation *e)
     if (sim->group[g]->wall) continue;
     sph_sim_pairs_clear(sim, g, SPH_COUNT_SUMS);
     for (int s = 0; s < sim->groups; s++)
-      sph_sim_pairs_loop(sim, sph_count_loop(sim->isa, sim->dim), g, s, &constants);
-    for (long s = 0; s < e->view[g].n; s++) {
-      sim->pairs_now += sum[SPH_COUNT_PAIRS][s];
+      if (sph_sim_interaction_same_species(sim->group[g], sim->group[s]))
+        sph_sim_pairs_loop(sim, loop, g, s, &constants);
+    for (long s = 0; s < e->view[g].n; s++)
       sim->near += sum[SPH_COUNT_NEAR][s] > 0 || sum[SPH_COUNT_ZERO][s] > 1;
-    }
+    for (int s = 0; s < sim->groups; s++) /* these may be as near as they like */
+      if (sph_sim_drag_acts(sim, sim->group[g], sim->group[s]))
+        sph_sim_pairs_loop(sim, loop, g, s, &constants);
+    for (long s = 0; s < e->view[g].n; s++) sim->pairs_now += sum[SPH_COUNT_PAIRS][s];
   }
   sim->fresh = 0;
 }
@@ -123,6 +127,13 @@ static double conduction(const sph_evaluation *e, const sph_group *group, const 
   return 0.125 * sim->h * sim->h * x->lightest * group->eos.c_v / group->conductivity;
 }
 
+/* The time in which a relative velocity decays (Laibe & Price 2012). */
+static double drag(const sph_evaluation *e)
+{
+  double rate = e->drag_rate[0] + e->drag_rate[1];
+  return (e->part->limit_terms & SPH_DRAG) && rate > 0 ? 1 / rate : INFINITY;
+}
+
 static void lower(double *limit, double dt) { *limit = fmin(*limit, dt); }
 
 int sph_sim_admit(sph_evaluation *e)
@@ -140,10 +151,11 @@ int sph_sim_admit(sph_evaluation *e)
     const extremes x = look(e, &e->view[g]);
     if (x.bad) return sph_sim_admit_retry(sim, "rates of %ld particles are not finite", x.bad);
     lower(&limit[SPH_BOUND_CFL], slowest(e, group, &x));
-    lower(&limit[SPH_BOUND_VISCOUS], viscous(e, &x));
+    if (!group->eos.dust) lower(&limit[SPH_BOUND_VISCOUS], viscous(e, &x));
     lower(&limit[SPH_BOUND_CONDUCTION], conduction(e, group, &x));
     if (x.a2 > 0) lower(&limit[SPH_BOUND_FORCE], 0.25 * sqrt(sim->h / sqrt(x.a2)));
   }
+  limit[SPH_BOUND_DRAG] = drag(e);
   /* Else they stay those of the last good evaluation. */
   if (part == &sim->part[SPH_PIECE_FAST])
     memcpy(sim->limit_fast, limit, sizeof limit);

@@ -32,8 +32,8 @@ typedef struct sph_part {
   /* What its evaluations limit: steps by waves and motion, and these terms. */
   int acoustic, motion;
   unsigned limit_terms, limit_called;
-  int lists, density, eos, walls, gradients, pairs; /* phases */
-  int only_walls;                                   /* pairs: of fluids with walls alone */
+  int lists, density, eos, walls, gradients, drag, pairs; /* phases */
+  int only_walls;                                         /* pairs: of fluids with walls alone */
   /* Registered pair terms, the fields that they read, what they add to. */
   int tiles;
   unsigned tile_fields, tile_adds;
@@ -119,7 +119,7 @@ struct sph_sim {
   sph_neighbors *neighbors;
   struct sph_tangent *tangent; /* of its derivatives; NULL until one is asked for */
   sph_sorted sorted[SPH_SETS_MAX];
-  unsigned loop_terms; /* bits of the fluid <- fluid loop */
+  unsigned loop_terms; /* bits of the fluid <- fluid loop, and SPH_DRAG */
   int fluid_sums;      /* sums that its loops make */
   int needs_temperature;
   sph_part part[SPH_PARTS];

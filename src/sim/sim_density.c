@@ -14,7 +14,9 @@ int sph_sim_density(sph_evaluation *e)
     const int *order = sph_neighbors_order(sim->neighbors, g);
     const sph_view *view = &e->view[g];
     sph_sim_pairs_clear(sim, g, SPH_DENSITY_SUMS);
-    for (int s = 0; s < sim->groups; s++) sph_sim_pairs_loop(sim, loop, g, s, &k);
+    for (int s = 0; s < sim->groups; s++)
+      if (sph_sim_interaction_same_species(sim->group[g], sim->group[s]))
+        sph_sim_pairs_loop(sim, loop, g, s, &k);
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (view->n > 4096)
     for (long s = 0; s < view->n; s++)
       view->rho[order[s]] = sim->W_scale * sim->sorted[g].sum[0][s];
@@ -43,7 +45,7 @@ void sph_sim_density_calibrate(sph_sim *sim)
   double sum = lattice_sum(sim);
   for (int g = 0; g < sim->groups; g++) {
     sph_group *group = sim->group[g];
-    if (group->wall || group->eos.thermal) continue;
+    if (group->wall || group->eos.thermal || group->eos.dust) continue;
     for (long i = 0; i < group->n; i++) group->own[SPH_MASS][0][i] /= sum;
     sim->wall_volume = sim->volume / sum;
   }

@@ -62,7 +62,7 @@ int sph_sim_gradients(sph_evaluation *e)
   if (!e->part->gradients) return SPH_OK;
   sph_pair_function *loop = sph_gradient_loop(sim->isa, sim->kernel_number, sim->dim);
   for (int g = 0; g < sim->groups; g++) {
-    if (sim->group[g]->wall) continue;
+    if (sim->group[g]->wall || sim->group[g]->eos.dust) continue;
     sph_sim_pairs_clear(sim, g, gradient_sums(sim->dim));
     for (int s = 0; s < sim->groups; s++)
       if (sph_sim_interaction_same_fluid(sim->group[g], sim->group[s]))

@@ -9,12 +9,25 @@
 /* A wall around two liquids has the density of one: diffusion would tear off the other. */
 int sph_sim_interaction_same_fluid(const sph_group *target, const sph_group *source)
 {
-  return source->eos.rho0 == target->eos.rho0 && source->eos.c0 == target->eos.c0;
+  return sph_sim_interaction_same_species(target, source) && source->eos.rho0 == target->eos.rho0 &&
+         source->eos.c0 == target->eos.c0;
+}
+
+int sph_sim_interaction_same_species(const sph_group *target, const sph_group *source)
+{
+  return target == source || (!target->eos.dust && !source->eos.dust);
+}
+
+int sph_sim_interaction_listed(const sph_sim *sim, const sph_group *target, const sph_group *source)
+{
+  if (target->wall && source->wall) return 0;
+  return sph_sim_interaction_same_species(target, source) || sph_sim_drag_acts(sim, target, source);
 }
 
 static unsigned terms_of(const sph_part *part, const sph_group *target, const sph_group *source)
 {
   unsigned terms = part->terms;
+  if (target->eos.dust) return terms & (SPH_CONTINUITY | SPH_FORM_C2 | SPH_FORM_PHI | SPH_THERMAL);
   if (!sph_sim_interaction_same_fluid(target, source)) terms &= ~(unsigned)SPH_DIFFUSION;
   if (!source->wall) return terms;
   terms &= ~(unsigned)(SPH_CONDUCTIVITY | SPH_XSPH);
@@ -104,7 +117,7 @@ void sph_sim_interaction_add(sph_evaluation *e, int target, int source)
   sph_sim *sim = e->sim;
   const fluid_constants k =
       sph_sim_interaction_constants(sim, e->part, sim->group[target], sim->group[source]);
-  if (e->part->tiles)
+  if (e->part->tiles && !sim->group[target]->eos.dust)
     add_tiles(e, &k, target, source);
   else if (k.terms & SPH_PAIR_TERMS)
     sph_sim_pairs_loop(sim, sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, k.terms), target,

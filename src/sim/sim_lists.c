@@ -55,7 +55,7 @@ int sph_sim_lists_update(sph_evaluation *e)
   for (int g = 0; !error.status && g < sim->groups; g++) sort(e, g, &error);
   for (int g = 0; !error.status && g < sim->groups; g++)
     for (int s = 0; !error.status && s < sim->groups; s++)
-      if (!sim->group[g]->wall || !sim->group[s]->wall)
+      if (sph_sim_interaction_listed(sim, sim->group[g], sim->group[s]))
         sph_neighbors_build(sim->neighbors, g, s, &error);
   if (error.status == SPH_RETRY) return sph_sim_admit_retry(sim, "%s", error.text);
   if (error.status) return sph_error_set(&sim->error, error.status, "%s", error.text);

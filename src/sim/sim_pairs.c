@@ -223,7 +223,9 @@ int sph_sim_pairs_add(sph_evaluation *e)
     if (sim->group[g]->wall) continue;
     if (e->part->pairs) sph_sim_pairs_clear(sim, g, sim->fluid_sums);
     for (int s = 0; s < sim->groups && e->part->pairs; s++)
-      if (sim->group[s]->wall || !e->part->only_walls) sph_sim_interaction_add(e, g, s);
+      if (sph_sim_interaction_same_species(sim->group[g], sim->group[s]) &&
+          (sim->group[s]->wall || !e->part->only_walls))
+        sph_sim_interaction_add(e, g, s);
     sph_sim_pairs_rates(e, g);
   }
   return SPH_OK;

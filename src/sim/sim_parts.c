@@ -10,6 +10,7 @@
  *   pair terms                                       lists, pairs; density where it is a sum
  *   those that read p, c, u, T; body terms; walls    eos
  *   pair terms that act at walls                     walls
+ *   drag                                             drag
  *   Antuono's diffusion                              gradients */
 #include "sim_parts.h"
 
@@ -75,6 +76,7 @@ static void choose(const sph_sim *sim, sph_part *part, int piece)
   }
   part->acoustic = part->motion && ((loop & SPH_PRESSURE_FORCE) || sim->terms.pairs);
   part->gravity = sim->terms.uniform && (bits & SPH_UNIFORM);
+  part->drag = (loop & bits & SPH_DRAG) != 0;
   part->rates = loop & bits & SPH_PAIR_TERMS;
   if (sim->terms.summed) part->rates &= ~(unsigned)SPH_CONTINUITY;
   part->terms = part->rates;
@@ -112,7 +114,7 @@ static void bodies_read(const sph_sim *sim, sph_part *part)
 static void find_phases(const sph_sim *sim, sph_part *part)
 {
   const int whole = part == &sim->part[SPH_WHOLE]; /* also tells what is shown */
-  part->pairs = whole || part->rates || part->tiles;
+  part->pairs = whole || part->rates || part->tiles || part->drag;
   if (part->pairs) part->terms |= sim->loop_terms & (SPH_FORM_C2 | SPH_FORM_PHI | SPH_THERMAL);
   part->walls = whole || (part->pairs && meets_walls(sim, part));
   part->gradients = (part->rates & SPH_ANTUONO) != 0;
@@ -129,6 +131,7 @@ static void find_phases(const sph_sim *sim, sph_part *part)
 int sph_sim_parts_of(sph_sim *sim, sph_part *part, unsigned bits, unsigned called)
 {
   *part = (sph_part){.called = called, .rates = sim->loop_terms & bits & SPH_PAIR_TERMS};
+  part->drag = (sim->loop_terms & bits & SPH_DRAG) != 0;
   part->terms = part->rates;
   int status = sph_sim_interaction_prepare(sim, part);
   if (!status) find_phases(sim, part);
@@ -148,7 +151,7 @@ int sph_sim_parts_make(sph_sim *sim)
   for (int piece = 0; piece < SPH_PARTS; piece++) {
     const sph_part *limits =
         piece <= SPH_PIECE_FAST ? &sim->part[piece] : &sim->part[SPH_PIECE_EXPLICIT];
-    sim->part[piece].limit_terms = limits->rates;
+    sim->part[piece].limit_terms = limits->rates | (limits->drag ? SPH_DRAG : 0);
     sim->part[piece].limit_called = limits->called;
   }
   return status;

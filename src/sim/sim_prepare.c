@@ -19,22 +19,30 @@
 /* Does every group have what it needs? */
 static int check_groups(sph_sim *sim)
 {
-  long fluids = 0;
+  long fluids = 0, dusts = 0;
   sph_group *fluid = NULL;
-  for (int g = 0; g < sim->groups; g++)
-    if (!sim->group[g]->wall) {
+  for (int g = 0; g < sim->groups; g++) {
+    dusts += sim->group[g]->eos.dust;
+    if (!sim->group[g]->wall && !sim->group[g]->eos.dust) {
       fluids += sim->group[g]->n;
       if (!fluid) fluid = sim->group[g];
     }
+  }
   if (fluids == 0)
     return sph_sim_fail(sim, SPH_ERR_STATE,
-                        "no fluid particles: add a group with sph_group_box first");
+                        "no fluid particles: add a group with sph_group_box first%s",
+                        dusts ? " (dust alone is none)" : "");
   for (int g = 0; g < sim->groups; g++) {
     sph_group *group = sim->group[g];
     if (!group->wall && !group->has_eos)
       return sph_sim_fail(sim, SPH_ERR_STATE,
                           "group %s has no equation of state: sph_group_set_eos", group->name);
-    if (!group->wall && (sph_group_data_energy(group) < 0) != (sph_group_data_energy(fluid) < 0))
+    if (group->eos.dust && sph_group_data_energy(group) >= 0)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "group %s: dust has no energy, not %s; drag heats the fluid", group->name,
+                          sph_group_energy(group));
+    if (!group->wall && !group->eos.dust &&
+        (sph_group_data_energy(group) < 0) != (sph_group_data_energy(fluid) < 0))
       return sph_sim_fail(sim, SPH_ERR_STATE,
                           "groups %s and %s: all fluids or none must have an energy "
                           "(sph_group_set_energy)",
@@ -119,10 +127,11 @@ static int check_fourtakas(sph_sim *sim, const sph_group *group)
 static int check_terms(sph_sim *sim)
 {
   double viscosity = 0, conductivity = 0;
-  int status = SPH_OK;
+  int status = SPH_OK, dusty = 0;
   for (int g = 0; !status && g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
-    if (group->wall) continue;
+    dusty |= group->eos.dust;
+    if (group->wall || group->eos.dust) continue;
     status = check_heat(sim, group);
     if (!status && (sim->terms.bits & SPH_DIFFUSION) && sim->terms.delta > 0 &&
         !(group->eos.c0 > 0))
@@ -141,6 +150,9 @@ static int check_terms(sph_sim *sim)
   if (!status && (sim->terms.bits & SPH_CONDUCTION) && conductivity == 0)
     status = sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                           "conduction: no fluid has a conductivity: sph_group_set_conductivity");
+  if (!status && (sim->terms.bits & SPH_DRAG) && !dusty)
+    status = sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "drag: there is no dust: a group with equation of state sph_eos_dust");
   return status;
 }
 
@@ -175,6 +187,7 @@ static int make_terms(sph_sim *sim)
   if (terms->signal_alpha == 0) bits &= ~(unsigned)SPH_SIGNAL;
   if (terms->epsilon == 0) bits &= ~(unsigned)SPH_XSPH;
   if (terms->delta == 0) bits &= ~(unsigned)SPH_DIFFUSION;
+  if (terms->drag_K == 0 && terms->drag_rate == 0) bits &= ~(unsigned)SPH_DRAG;
   sim->loop_terms = bits;
   sim->constants = (fluid_constants){.terms = bits};
   sph_sim_prepare_h(sim);
@@ -354,10 +367,7 @@ int sph_sim_prepare(sph_sim *sim)
         "%ld particles start nearer than 0.1 dx = %g m to another (a wall in the fluid, "
         "or two shapes that overlap?)",
         sim->near, 0.1 * sim->dx);
-  for (int g = 0; !status && g < sim->groups; g++) {
-    sph_view view = sph_group_data_view(sim->group[g], sph_nvector_data(sim->y), NULL);
-    if (!sim->group[g]->wall) sph_sim_weights_scales(sim, g, &view);
-  }
+  if (!status) sph_sim_weights_scales(sim);
   if (!status) status = sph_sim_implicit_make(sim);
   if (!status) status = make_integrator(sim);
   sim->prepared = sim->derived = !status;

@@ -12,6 +12,7 @@ typedef struct sph_evaluation {
   const sph_part *part; /* which is evaluated */
   double limit_user;    /* step limit of body terms [s] */
   sph_view view[SPH_SETS_MAX];
+  double drag_rate[2]; /* largest of fluids, of dust [1/s] */
 } sph_evaluation;
 
 /* Pressure, sound speed and walls of the state (t, y), with the lists as they are. */
@@ -29,6 +30,7 @@ int sph_sim_walls_move(sph_evaluation *e);             /* walls: prescribed moti
 int sph_sim_walls_fill(sph_evaluation *e);             /* walls: extrapolation */
 int sph_sim_gradients(sph_evaluation *e);              /* prepare */
 void sph_sim_pairs_pack(sph_evaluation *e, int walls); /* sorted copies of fluids, or of walls */
+int sph_sim_drag_add(sph_evaluation *e);               /* drag */
 int sph_sim_pairs_add(sph_evaluation *e);              /* pairs */
 int sph_sim_admit(sph_evaluation *e);                  /* admit */
 
@@ -64,6 +66,14 @@ fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part
 /* Does density diffuse between them?  Not between a fluid and another, or a wall, of different
  * reference density or sound speed. */
 int sph_sim_interaction_same_fluid(const sph_group *target, const sph_group *source);
+/* Each dust is a species of its own, all fluids and walls are one: density, its diffusion,
+ * pressure, viscosity, conduction act within a species only. */
+int sph_sim_interaction_same_species(const sph_group *target, const sph_group *source);
+/* Has target a list of neighbours in source? */
+int sph_sim_interaction_listed(const sph_sim *sim, const sph_group *target,
+                               const sph_group *source);
+/* Is there drag between them? */
+int sph_sim_drag_acts(const sph_sim *sim, const sph_group *target, const sph_group *source);
 /* Which terms of a part use tiles, and what these hold. */
 int sph_sim_interaction_prepare(sph_sim *sim, sph_part *part);
 /* Before the run: masses that make the lattice sum the reference density. */

@@ -92,7 +92,8 @@ int sph_sim_walls_fill(sph_evaluation *e)
     sph_sim_pairs_pack_positions(e, g);
     sph_sim_pairs_clear(sim, g, SPH_WALL_SUMS);
     for (int f = 0; f < sim->groups; f++)
-      if (!sim->group[f]->wall) sph_sim_pairs_loop(sim, loop, g, f, &sim->constants);
+      if (!sim->group[f]->wall && !sim->group[f]->eos.dust)
+        sph_sim_pairs_loop(sim, loop, g, f, &sim->constants);
     sph_sim_walls_finish(e, g);
   }
   if (!e->part->walls) return SPH_OK;

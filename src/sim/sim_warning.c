@@ -31,6 +31,8 @@ static void find_in_terms(finder *f, const sph_term_set *terms)
     found(f, "delta fourtakas without gravity is molteni");
   if ((terms->bits & SPH_XSPH) && terms->epsilon == 0)
     found(f, "xsph with epsilon = 0 does nothing");
+  if ((terms->bits & SPH_DRAG) && terms->drag_K == 0 && terms->drag_rate == 0)
+    found(f, "drag with K = 0 does nothing");
 }
 
 static void find_in_wall(finder *f, const sph_sim *sim, const sph_group *wall)
@@ -42,6 +44,17 @@ static void find_in_wall(finder *f, const sph_sim *sim, const sph_group *wall)
     found(f, "wall %s is no-slip, but there is no viscous term to feel it", wall->name);
   if (wall->viscosity > 0)
     found(f, "wall %s has a viscosity, which is not used: fluids take their own", wall->name);
+}
+
+static void find_in_dust(finder *f, const sph_sim *sim, const sph_group *dust)
+{
+  int walls = 0;
+  for (int g = 0; g < sim->groups; g++) walls += sim->group[g]->wall;
+  if (!(sim->terms.bits & SPH_DRAG))
+    found(f, "%s is dust, but there is no drag: nothing acts on it", dust->name);
+  if (walls) found(f, "%s is dust: walls do not hold it", dust->name);
+  if (dust->viscosity > 0 || dust->conductivity > 0)
+    found(f, "%s is dust: its viscosity and conductivity are not used", dust->name);
 }
 
 static void find_in_fluid(finder *f, const sph_sim *sim, const sph_group *fluid)
@@ -65,6 +78,8 @@ int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size)
   for (int g = 0; g < sim->groups; g++)
     if (sim->group[g]->wall)
       find_in_wall(&f, sim, sim->group[g]);
+    else if (sim->group[g]->eos.dust)
+      find_in_dust(&f, sim, sim->group[g]);
     else
       find_in_fluid(&f, sim, sim->group[g]);
   return f.found > k;

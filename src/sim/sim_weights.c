@@ -3,6 +3,7 @@
  *   rho: rho0 (V/c0)^2;  u, e: V^2/2;  A: (gamma - 1) rho^(1-gamma) V^2/2;  T: V^2/(2 c_v)
  * and for a thermal one c0 = mean sound speed, rho0 = mean density; for a gas (no c0) V = c0.  An
  * energy that is carried along: the range of u at the start or a thousandth of u, if that is more.
+ * Dust, which has no c: V at least that of the fluids, rho the mean density.
  * Scalars: as their terms say.  What sph_sim_set_scale says comes first. */
 #include "sim_weights.h"
 
@@ -52,10 +53,11 @@ static double speed(const sph_sim *sim, const sph_view *view)
   return sqrt(most);
 }
 
-void sph_sim_weights_scales(sph_sim *sim, int g, const sph_view *view)
+/* V_least: of the fluids, for dust. */
+static void set_scales(sph_sim *sim, int g, const sph_view *view, double V_least)
 {
   const sph_group *group = sim->group[g];
-  double c = group->eos.c0, rho = group->eos.rho0, V = sim->speed;
+  double c = group->eos.c0, rho = group->eos.rho0, V = fmax(sim->speed, V_least);
   if (group->eos.thermal || !(c > 0)) c = mean(view->c, view->n);
   if (group->eos.thermal || !(rho > 0)) rho = mean(view->rho, view->n);
   V = fmax(V, fmax(fall_speed(sim, view), speed(sim, view)));
@@ -110,6 +112,19 @@ double sph_sim_weights_rate(const sph_sim *sim, N_Vector rates)
         }
       }
   return sqrt(sum / entries);
+}
+
+void sph_sim_weights_scales(sph_sim *sim)
+{
+  double V_most = 0;
+  for (int dust = 0; dust < 2; dust++) /* fluids first */
+    for (int g = 0; g < sim->groups; g++) {
+      const sph_group *group = sim->group[g];
+      if (group->wall || group->eos.dust != dust) continue;
+      sph_view view = sph_group_data_view(group, sph_nvector_data(sim->y), NULL);
+      set_scales(sim, g, &view, dust ? V_most : 0);
+      V_most = fmax(V_most, sim->scale[g][SPH_VELOCITY]);
+    }
 }
 
 int sph_sim_weights(N_Vector y, N_Vector weight, void *ctx)

@@ -26,6 +26,8 @@ static const struct {
               "2 (rho_j - rho_i) (r_j - r_i)/r^2 (molteni), "
               "the same less <grad rho>_i + <grad rho>_j (antuono) or with "
               "rho_j - rho_i - rho^H_ij (fourtakas)"},
+    {"drag", "a_i = -d sum m_j K/(rho_i rho_j) D_ij (v_ij.e) e between dust and fluids, "
+             "D = q^2 W/(d sigma_k^2), e = r_ij/r; K constant or rho_dust/t_s"},
     {"gravity", "a_i = g"},
     {"harmonic", "a_i = -omega^2 x_i"},
 };

@@ -21,6 +21,7 @@ static const struct {
     {"conduction", SPH_CONDUCTION, DEFAULT},
     {"xsph", SPH_XSPH, NEVER},
     {"delta", SPH_DIFFUSION, MAY},
+    {"drag", SPH_DRAG, DEFAULT},
     {"gravity", SPH_UNIFORM, NEVER},
 };
 enum { BUILT_IN = sizeof built_in / sizeof *built_in };

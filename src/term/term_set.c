@@ -145,6 +145,22 @@ static int add_delta(sph_term_set *set, const sph_term *term, sph_error *error)
   return status;
 }
 
+static int add_drag(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  const char *form = term->form ? term->form : "K";
+  int timed = !strcmp(form, "time");
+  if (!timed && strcmp(form, "K"))
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "term drag: form \"%s\"; known: K, time", form);
+  if (timed && !(term->drag > 0 && isfinite(term->drag) && isfinite(1 / term->drag)))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term drag: stopping time = %g s; right is > 0 and finite", term->drag);
+  int status = timed ? SPH_OK : not_below_zero(term->name, "K", term->drag, error);
+  if (!status) status = claim(set, SPH_DRAG, term->name, error);
+  set->drag_K = timed ? 0 : term->drag;
+  set->drag_rate = timed ? 1 / term->drag : 0;
+  return status;
+}
+
 static int add_gravity(sph_term_set *set, const sph_term *term, sph_error *error)
 {
   for (int d = 0; d < 3; d++) {
@@ -266,6 +282,7 @@ static int add(sph_term_set *set, const sph_term *term, sph_error *error)
       {"conduction", add_conduction},
       {"xsph", add_xsph},
       {"delta", add_delta},
+      {"drag", add_drag},
       {"gravity", add_gravity},
   };
   if (!term->name || !*term->name)
@@ -293,6 +310,7 @@ static const struct {
     {"conductivity-artificial", SPH_CONDUCTIVITY},
     {"xsph", SPH_XSPH},
     {"delta", SPH_DIFFUSION},
+    {"drag", SPH_DRAG},
 };
 
 unsigned sph_term_set_bits(const char *name)
@@ -341,7 +359,7 @@ int sph_term_set_change(sph_term_set *set, const sph_term *term, sph_error *erro
   if (!own && sph_term_set_bits(name)) return change_pair(set, term, error);
   return sph_error_set(error, SPH_ERR_ARGUMENT,
                        "term \"%.60s\" cannot change; gravity, harmonic, viscosity-artificial, "
-                       "viscosity-signal, conductivity-artificial, xsph, delta can",
+                       "viscosity-signal, conductivity-artificial, xsph, delta, drag can",
                        name);
 }
 

@@ -8,8 +8,9 @@
 
 enum { SPH_CALLED_TERMS_MAX = 32, SPH_TERM_NAME_MAX = 64, SPH_TERM_READS_MAX = 256 };
 
-/* Beside the bits of pair terms, where terms are told apart: the uniform body force. */
-enum { SPH_UNIFORM = 1 << 30 };
+/* Beside the bits of the fused loops, where terms are told apart: the uniform body force; drag,
+ * which has a loop of its own. */
+enum { SPH_UNIFORM = 1 << 30, SPH_DRAG = 1 << 29 };
 
 /* A term with callbacks, and its strings. */
 typedef struct sph_called_term {
@@ -38,6 +39,7 @@ typedef struct sph_term_set {
   double alpha_u;                    /* artificial conductivity */
   double delta;                      /* density diffusion */
   double epsilon;                    /* XSPH */
+  double drag_K, drag_rate;          /* drag_K + drag_rate rho_dust [kg/m^3/s], [1/s] */
   sph_term phi;                      /* of form phi: its exponent, phi, ctx; name NULL: none */
   double g[3];                       /* sum of the uniform body forces [m/s^2] */
   int called, pairs, heats, scalars; /* pairs, heats: called terms with pair; heat sources */

@@ -9,8 +9,8 @@
 #include "sundials.h"
 
 /* Longest steps by cause, enum sph_bound [s]; INFINITY where there is none.  dt[SPH_BOUND_CFL] is
- * min h/(c + |v|), to which the stepper applies cfl and S; VISCOUS, FORCE, CONDUCTION, USER are
- * final. */
+ * min h/(c + |v|), to which the stepper applies cfl and S; VISCOUS, FORCE, CONDUCTION, DRAG, USER
+ * are final. */
 typedef struct sph_step_limit {
   double dt[SPH_BOUND_COUNT];
 } sph_step_limit;

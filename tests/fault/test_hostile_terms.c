@@ -170,6 +170,53 @@ static void unfit(void **state)
           "heat-source heats an energy, which water has not: sph_group_set_energy");
 }
 
+/* ---- dust ---- */
+
+static subject dusty(void)
+{
+  subject s = liquid();
+  sph_group *dust = sph_group_box(s.sim, "dust", (double[]){0, 0}, (double[]){1, 0.5}, 3);
+  sph_group_set_eos(dust, sph_eos_dust());
+  return s;
+}
+
+static void dust(void **state)
+{
+  (void)state;
+  static const double bad[] = {NAN, INFINITY, -1}, p[50] = {0};
+  static const char *const name[] = {"nan", "inf", "-1"};
+  char text[200];
+  for (int k = 0; k < 3; k++) {
+    snprintf(text, sizeof text, "term drag: K = %s; right is a finite number >= 0", name[k]);
+    refused(dusty(), sph_term_drag(bad[k]), text);
+    snprintf(text, sizeof text, "term drag: stopping time = %s s; right is > 0 and finite",
+             name[k]);
+    refused(dusty(), sph_term_drag_time(bad[k]), text);
+  }
+  refused(dusty(), sph_term_drag_time(0),
+          "term drag: stopping time = 0 s; right is > 0 and finite");
+  refused(dusty(), (sph_term){.name = "drag", .form = "k"},
+          "term drag: form \"k\"; known: K, time");
+  refused_pair(dusty(), sph_term_drag(1), sph_term_drag_time(1), "term drag: added twice");
+  refused(liquid(), sph_term_drag(1),
+          "drag: there is no dust: a group with equation of state sph_eos_dust");
+  subject s = dusty();
+  sph_group_set_energy(sph_sim_group(s.sim, "dust"), "u");
+  assert_refused(s, SPH_ERR_ARGUMENT,
+                 "group dust: dust has no energy, not u; drag heats the fluid");
+  s = liquid(), sph_group_set_eos(s.floor, sph_eos_dust());
+  assert_refused(s, SPH_ERR_ARGUMENT,
+                 "group floor is a wall: it has the equation of state of a fluid, not of dust");
+  s = liquid(), sph_group_set_eos(s.water, sph_eos_dust());
+  assert_refused(s, SPH_ERR_STATE,
+                 "no fluid particles: add a group with sph_group_box first (dust alone is none)");
+  s = dusty(), sph_group_set_pressure(sph_sim_group(s.sim, "dust"), p);
+  assert_refused(s, SPH_ERR_ARGUMENT,
+                 "group dust, particle 0: no state of equation of state dust has p = 0 Pa");
+  s = dusty(), sph_group_set_hydrostatic(sph_sim_group(s.sim, "dust"), 1, 1, 9.81);
+  assert_refused(s, SPH_ERR_ARGUMENT, "group dust: hydrostatic needs a liquid, not dust");
+}
+
 /* ---- energies and temperatures ---- */
 
 static void refused_energy(subject s, int wall, const char *variable, const char *text)
@@ -414,13 +461,40 @@ static void warnings(void **state)
   sph_sim_free(s.sim);
 }
 
+static void warnings_of_dust(void **state)
+{
+  (void)state;
+  static const char *const told[] = {"drag with K = 0 does nothing",
+                                     "dust is dust, but there is no drag: nothing acts on it",
+                                     "dust is dust: walls do not hold it",
+                                     "dust is dust: its viscosity and conductivity are not used"};
+  subject s = dusty();
+  sph_sim_add_term(s.sim, sph_term_continuity());
+  sph_sim_add_term(s.sim, sph_term_pressure());
+  warned(s.sim, told + 1, 2);
+  sph_group_set_conductivity(sph_sim_group(s.sim, "dust"), 1);
+  warned(s.sim, told + 1, 3);
+  sph_sim_add_term(s.sim, sph_term_drag(0));
+  warned(s.sim, (const char *[]){told[0], told[2], told[3]}, 3);
+  sph_sim_free(s.sim);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(parameters), cmocka_unit_test(twice),    cmocka_unit_test(rows),
-      cmocka_unit_test(unfit),      cmocka_unit_test(energies), cmocka_unit_test(temperatures),
-      cmocka_unit_test(scalars),    cmocka_unit_test(too_many), cmocka_unit_test(reads),
-      cmocka_unit_test(no_group),   cmocka_unit_test(warnings),
+      cmocka_unit_test(parameters),
+      cmocka_unit_test(twice),
+      cmocka_unit_test(rows),
+      cmocka_unit_test(unfit),
+      cmocka_unit_test(energies),
+      cmocka_unit_test(temperatures),
+      cmocka_unit_test(scalars),
+      cmocka_unit_test(too_many),
+      cmocka_unit_test(reads),
+      cmocka_unit_test(no_group),
+      cmocka_unit_test(warnings),
+      cmocka_unit_test(dust),
+      cmocka_unit_test(warnings_of_dust),
   };
   return cmocka_run_group_tests_name("hostile terms", tests, NULL, NULL);
 }

@@ -79,6 +79,7 @@ typedef struct variant {
   enum row row;
   const char *energy; /* NULL: default; with conduction, laminar viscosity, a heat source */
   int scalar;         /* a term with one, and with a pair function */
+  int dust;           /* with drag */
 } variant;
 
 static void add_row(sph_sim *sim, const variant *v)
@@ -148,6 +149,13 @@ static void add_moments(sph_sim *sim)
                                            .free = count});
 }
 
+static void add_dust(sph_sim *sim)
+{
+  sph_group *dust = sph_group_box(sim, "dust", (double[]){0, 0}, (double[]){1, 0.5}, 10);
+  sph_group_set_eos(dust, sph_eos_dust());
+  sph_sim_add_term(sim, sph_term_drag_time(0.1));
+}
+
 static int attach_and_run(sph_sim *sim, const variant *v)
 {
   sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1, 0.5}, 1000);
@@ -164,6 +172,7 @@ static int attach_and_run(sph_sim *sim, const variant *v)
   add_row(sim, v);
   if (v->energy) add_heat(sim, water, v);
   if (v->scalar) add_scalar(sim);
+  if (v->dust) add_dust(sim);
   sph_sim_add_term(sim, sph_term_viscosity_artificial(0.1, 0));
   if (!v->thermal && v->row != SUMMED)
     sph_sim_add_term(sim, sph_term_delta(v->row == PHI ? "fourtakas" : "antuono", 0.1));
@@ -221,13 +230,13 @@ static void each_allocation_fails(const variant *v)
 }
 
 static const variant variants[] = {
-    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, C2, NULL, 0},
-    {"leapfrog", "brute-force", 1, 0, C2, NULL, 0},
-    {"verlet", NULL, 1, 1, C2, NULL, 0},
-    {"leapfrog", NULL, 0, 0, SUMMED, "temperature", 1},
-    {"erk:bogacki-shampine-4-2-3", NULL, 1, 1, SUMMED, "entropy", 0},
-    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, PHI, "u", 1},
-    {"leapfrog", NULL, 0, 1, PHI, "total", 1},
+    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, C2, NULL, 0, 0},
+    {"leapfrog", "brute-force", 1, 0, C2, NULL, 0, 1},
+    {"verlet", NULL, 1, 1, C2, NULL, 0, 0},
+    {"leapfrog", NULL, 0, 0, SUMMED, "temperature", 1, 1},
+    {"erk:bogacki-shampine-4-2-3", NULL, 1, 1, SUMMED, "entropy", 0, 0},
+    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, PHI, "u", 1, 0},
+    {"leapfrog", NULL, 0, 1, PHI, "total", 1, 1},
 };
 enum { VARIANTS = sizeof variants / sizeof *variants };
 

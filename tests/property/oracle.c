@@ -118,6 +118,7 @@ static int near(const oracle *o, long i, long j, pair *ij)
   return 1;
 }
 
+static int is_dust(const oracle *o, long i) { return o->group[o->particle[i].group].dust; }
 static int is_wall(const oracle *o, long i) { return o->group[o->particle[i].group].wall; }
 
 /* Density diffuses where rho0 and c0 are the same: within a fluid, and at walls of its equation of
@@ -126,7 +127,13 @@ static int same_fluid(const oracle *o, long i, long j)
 {
   const oracle_eos *a = &o->group[o->particle[i].group].eos;
   const oracle_eos *b = &o->group[o->particle[j].group].eos;
-  return a->rho0 == b->rho0 && a->c0 == b->c0;
+  return !is_dust(o, i) && !is_dust(o, j) && a->rho0 == b->rho0 && a->c0 == b->c0;
+}
+
+/* Fluids and walls are one, each dust is another. */
+static int same_species(const oracle *o, long i, long j)
+{
+  return o->particle[i].group == o->particle[j].group || (!is_dust(o, i) && !is_dust(o, j));
 }
 static const oracle_eos *eos_of(const oracle *o, long i)
 {
@@ -178,7 +185,7 @@ static void densities(oracle *o)
     it->rho = 0;
     for (long j = 0; j < o->n; j++) {
       const oracle_particle *other = &o->particle[j];
-      if (!near(o, i, j, &ij)) continue;
+      if (!near(o, i, j, &ij) || !same_species(o, i, j)) continue;
       it->rho += other->m * oracle_w(o, ij.r);
     }
   }
@@ -189,7 +196,7 @@ static void materials(oracle *o)
   for (long i = 0; i < o->n; i++) {
     oracle_particle *it = &o->particle[i];
     if (is_wall(o, i)) continue;
-    pressure_of(eos_of(o, i), it);
+    if (!is_dust(o, i)) pressure_of(eos_of(o, i), it);
     it->condition = 1;
     if (o->summed) it->condition = 4, it->p_size *= 4 * eos_of(o, i)->gamma;
     if (eos_of(o, i)->c_v > 0) it->T = it->u / eos_of(o, i)->c_v;
@@ -213,7 +220,7 @@ static void wall(oracle *o, long w)
   difference(o->g, group->acceleration, down);
   for (long f = 0; f < o->n; f++) {
     const oracle_particle *fluid = &o->particle[f];
-    if (is_wall(o, f) || !near(o, w, f, &wf)) continue;
+    if (is_wall(o, f) || is_dust(o, f) || !near(o, w, f, &wf)) continue;
     real weight = oracle_w(o, wf.r);
     sum_w += weight;
     sum_p += weight * (fluid->p + fluid->rho * dot(down, wf.d));
@@ -427,6 +434,40 @@ static void xsph(const oracle *o, oracle_particle *i, const oracle_particle *j, 
   i->dx_size += weight * edge * (norm(i->v) + norm(j->v)) * i->condition * j->condition;
 }
 
+/* int q^2 W dV at h = 1, by Gauss's rule of five points. */
+static real second_moment(const oracle *o)
+{
+  static const real node[] = {0, 0.53846931010568309104L, 0.90617984593866399280L};
+  static const real weight[] = {0.56888888888888888889L, 0.47862867049936646804L,
+                                0.23692688505618908751L};
+  const real sphere = o->dim == 1 ? 2 : o->dim == 2 ? 2 * pi : 4 * pi;
+  real sum = 0, half = 0.01L;
+  for (int k = 0; k < 50 * kappa(o); k++)
+    for (int g = -2; g <= 2; g++) {
+      real q = (2 * k + 1) * half + (g < 0 ? -1 : 1) * half * node[g < 0 ? -g : g];
+      sum += half * weight[g < 0 ? -g : g] * powl(q, o->dim + 1) * shape(o, q);
+    }
+  return sphere * sigma(o) * sum;
+}
+
+/* Laibe & Price (2012):  a = - d sum m_j K/(rho_i rho_j) (v_ij.e) e D,  D = q^2 W/int q^2 W dV;
+ * all its work heats the fluid. */
+static void drag(const oracle *o, int i_is_dust, oracle_particle *i, const oracle_particle *j,
+                 const pair *ij)
+{
+  real q = ij->r / o->h, D = q * q * oracle_w(o, ij->r) / o->second_moment, v[3];
+  real K = o->drag_K + o->drag_rate * (i_is_dust ? i->rho : j->rho);
+  real factor = o->dim * j->m * K / (i->rho * j->rho) * D, along = 0;
+  real speed = norm(i->v) + norm(j->v);
+  real edge = (1 + 8 / (1 - q / kappa(o))) * i->condition * j->condition;
+  difference(i->v, j->v, v);
+  if (ij->r > 0) along = dot(v, ij->d) / ij->r;
+  for (int k = 0; k < o->dim && ij->r > 0; k++) i->a[k] -= factor * along * ij->d[k] / ij->r;
+  i->a_size += factor * speed * edge;
+  if (!i_is_dust) i->heat += factor * along * along;
+  if (!i_is_dust) i->heat_size += factor * speed * speed * edge;
+}
+
 /* Price (2008):  du = sum m_j/rho alpha_u v_sig (u_i - u_j) r F,  v_sig = sqrt(|p_i - p_j|/rho). */
 static void conductivity(const oracle *o, oracle_particle *i, const oracle_particle *j,
                          const pair *ij)
@@ -466,6 +507,7 @@ static void diffusion(const oracle *o, const oracle_eos *eos, int j_is_wall, ora
 /* What has an energy, and with it temperature, heat. */
 static int has_energy(const oracle *o, long i)
 {
+  if (is_dust(o, i)) return 0;
   return o->energy != ORACLE_DEFAULT || eos_of(o, i)->kind == ORACLE_IDEAL_GAS;
 }
 
@@ -496,7 +538,12 @@ static void pair_rates(oracle *o, long i, long j, const pair *ij)
   const oracle_particle *other = &o->particle[j];
   const oracle_group *own = &o->group[it->group], *theirs = &o->group[other->group];
   int wall_j = theirs->wall, viscous = !wall_j || theirs->no_slip;
+  if (!same_species(o, i, j)) {
+    if (o->drag && !wall_j && own->dust != theirs->dust) drag(o, own->dust, it, other, ij);
+    return;
+  }
   compression(o, it, other, ij);
+  if (own->dust) return;
   if (viscous) viscosity(o, it, other, ij);
   if (viscous && o->signal_alpha > 0) signal_viscosity(o, it, other, ij);
   if (viscous && o->laminar != ORACLE_INVISCID)
@@ -528,12 +575,13 @@ static void rates(oracle *o, long i)
 
 void oracle_evaluate(oracle *o)
 {
+  o->second_moment = second_moment(o);
   densities(o);
   materials(o);
   for (long i = 0; i < o->n; i++)
     if (is_wall(o, i)) wall(o, i);
   for (long i = 0; i < o->n; i++)
-    if (!is_wall(o, i)) gradient(o, i);
+    if (!is_wall(o, i) && !is_dust(o, i)) gradient(o, i);
   for (long i = 0; i < o->n; i++)
     if (!is_wall(o, i)) rates(o, i);
 }

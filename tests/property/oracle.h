@@ -18,7 +18,8 @@ typedef struct oracle_eos {
 } oracle_eos;
 
 typedef struct oracle_group {
-  int wall;             /* 1: wall, 0: fluid */
+  int wall;             /* 1: wall, 0: fluid or dust */
+  int dust;             /* 1: a species of its own, without pressure */
   oracle_eos eos;       /* of a wall: that of the fluid it holds */
   int no_slip;          /* of a wall: viscous terms see it */
   int tension;          /* of a wall: p < 0 is allowed */
@@ -60,7 +61,7 @@ enum oracle_kernel {
   ORACLE_SPIKY
 };
 enum { ORACLE_KERNELS = ORACLE_SPIKY + 1 };
-enum { ORACLE_GROUPS = 4 };
+enum { ORACLE_GROUPS = 6 };
 enum oracle_row { ORACLE_NONE, ORACLE_C1, ORACLE_C2, ORACLE_PHI }; /* density and its partners */
 enum oracle_delta { ORACLE_OFF, ORACLE_MOLTENI, ORACLE_ANTUONO, ORACLE_FOURTAKAS };
 enum oracle_laminar { ORACLE_INVISCID, ORACLE_MORRIS, ORACLE_MCG };
@@ -87,8 +88,11 @@ typedef struct oracle {
   real signal_alpha, signal_beta;
   enum oracle_laminar laminar;
   int conduction;
-  real epsilon;      /* XSPH */
-  real conductivity; /* alpha_u */
+  real epsilon; /* XSPH */
+  int drag;     /* K = drag_K + drag_rate rho_dust */
+  real drag_K, drag_rate;
+  real second_moment; /* a result: int q^2 W dV at h = 1 */
+  real conductivity;  /* alpha_u */
   enum oracle_delta diffusion;
   real delta;
   real g[3];  /* [m/s^2] */

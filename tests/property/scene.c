@@ -33,12 +33,14 @@ static double between(unsigned long *state, double lo, double hi)
 
 /* ---- the cloud ---- */
 
-/* Closest to any of the first i particles, nearest images. */
+/* Closest to any of the first i particles that i may not meet, nearest images. */
 static double distance(const oracle *o, long i, const double x[3])
 {
   real least = INFINITY;
   for (long j = 0; j < i; j++) {
     real r2 = 0;
+    int dust = o->group[o->particle[i].group].dust;
+    if (dust && o->particle[j].group != o->particle[i].group) continue;
     for (int k = 0; k < o->dim; k++) {
       real d = x[k] - o->particle[j].x[k];
       if (o->periodic[k]) d -= o->length[k] * roundl(d / o->length[k]);
@@ -64,10 +66,11 @@ static void place(scene *s, const scene_def *def, long i, const int cell[3], uns
   for (int k = 0; k < 3; k++) s->o.particle[i].x[k] = x[k];
 }
 
-/* 0: first fluid, 1: second, 2: wall below, 3: wall above. */
-static int group_of(const scene_def *def, const int cell[3])
+/* 0: first fluid, 1: second, 2: wall below, 3: wall above; 4, 5: dust. */
+static int group_of(const scene_def *def, const int cell[3], int layer)
 {
   int up = cell[def->dim - 1];
+  if (layer > 0) return 3 + layer;
   if (def->walls > 0 && up < 3) return 2;
   if (def->walls > 1 && up >= def->n - 3) return 3;
   return def->fluids > 1 && cell[0] >= def->n / 2;
@@ -87,7 +90,9 @@ static void fill(scene *s, const scene_def *def, oracle_particle *it, unsigned l
   for (int k = 0; k < def->dim; k++) it->v[k] = between(state, -1, 1);
   it->m = (double)it->m * between(state, 0.5, 1.5);
   it->rho = rho0 * (def->thermal ? between(state, 0.5, 1.5) : between(state, 0.97, 1.06));
-  if (def->thermal || def->laminar) it->u = between(state, 5, 25);
+  int dust = s->o.group[it->group].dust;
+  if (dust) it->rho = (double)it->rho * between(state, 0.1, 3);
+  if (!dust && (def->thermal || def->laminar)) it->u = between(state, 5, 25);
 }
 
 /* In half of all scenes the lid has a conductivity of its own; else it takes that of the fluid. */
@@ -105,10 +110,11 @@ static void groups(scene *s, const scene_def *def)
   s->o.groups = ORACLE_GROUPS;
   for (int g = 0; g < ORACLE_GROUPS; g++) {
     oracle_group *group = &s->o.group[g];
-    *group = (oracle_group){.wall = g >= 2, .no_slip = def->no_slip, .tension = def->tension};
+    *group = (oracle_group){.wall = g == 2 || g == 3, .dust = g > 3, .tension = def->tension};
+    group->no_slip = def->no_slip;
     group->rho0 = rho0_of_all;
     group->eos = def->thermal ? gas : g == 1 ? linear : tait;
-    if (def->laminar) {
+    if (def->laminar && !group->dust) {
       group->eos.c_v = g == 1 ? 0.7 : 0.5;
       group->viscosity = g == 1 ? 3 : 2;
       group->conductivity = g == 1 ? 40 : g == 3 ? lid(def) : 15;
@@ -136,24 +142,24 @@ void scene_make(scene *s, const scene_def *def)
     s->o.length[k] = def->n * s->dx;
   }
   groups(s, def);
-  s->o.n = cells;
-  s->o.particle = calloc((size_t)cells, sizeof *s->o.particle);
+  s->o.n = cells * (1 + def->dusts);
+  s->o.particle = calloc((size_t)s->o.n, sizeof *s->o.particle);
   assert_non_null(s->o.particle);
   for (int g = 0; g < ORACLE_GROUPS; g++)
-    for (long c = 0; c < cells; c++) {
+    for (long c = 0; c < cells && g <= 3 + def->dusts; c++) {
       int cell[3] = {(int)(c % def->n), (int)(c / def->n % def->n), (int)(c / def->n / def->n)};
-      if (group_of(def, cell) != g) continue;
+      if (group_of(def, cell, g > 3 ? g - 3 : 0) != g) continue;
       s->o.particle[i].group = g;
       place(s, def, i++, cell, &state);
     }
-  for (i = 0; i < cells; i++) fill(s, def, &s->o.particle[i], &state);
+  for (i = 0; i < s->o.n; i++) fill(s, def, &s->o.particle[i], &state);
 }
 
 void scene_free(scene *s) { free(s->o.particle); }
 
 /* ---- the library's side ---- */
 
-static const char *const names[ORACLE_GROUPS] = {"water", "oil", "floor", "lid"};
+static const char *const names[ORACLE_GROUPS] = {"water", "oil", "floor", "lid", "dust", "sand"};
 
 static void move(void *ctx, double t, double displacement[3], double velocity[3],
                  double acceleration[3])
@@ -206,6 +212,10 @@ static void add_group(scene *s, sph_sim *sim, int g)
   for (int k = 0; k < 3; k++) free(x[k]);
   sph_group_set_viscosity(group, (double)o->group[g].viscosity);
   sph_group_set_conductivity(group, (double)o->group[g].conductivity);
+  if (o->group[g].dust) {
+    sph_group_set_eos(group, sph_eos_dust());
+    return;
+  }
   if (!o->group[g].wall) {
     sph_group_set_eos(group, library_eos(&o->group[g].eos));
     if (o->energy) sph_group_set_energy(group, energies[o->energy]);
@@ -247,6 +257,9 @@ static void add_terms(const oracle *o, sph_sim *sim)
     sph_sim_add_term(sim, sph_term_conductivity_artificial((double)o->conductivity));
   if (o->conduction) sph_sim_add_term(sim, sph_term_conduction());
   if (o->epsilon > 0) sph_sim_add_term(sim, sph_term_xsph((double)o->epsilon));
+  if (o->drag)
+    sph_sim_add_term(sim, o->drag_rate > 0 ? sph_term_drag_time(1 / (double)o->drag_rate)
+                                           : sph_term_drag((double)o->drag_K));
   if (o->diffusion) sph_sim_add_term(sim, sph_term_delta(delta[o->diffusion], (double)o->delta));
   double g[3] = {(double)o->g[0], (double)o->g[1], (double)o->g[2]};
   if (g[0] != 0 || g[1] != 0 || g[2] != 0) sph_sim_add_term(sim, sph_term_gravity(g));
@@ -268,7 +281,7 @@ void scene_write(const scene *s, sph_sim *sim)
       }
     }
     double *m = sph_group_write(group, "mass", 0), *rho = sph_group_write(group, "density", 0);
-    double *u = has_energy(s) ? sph_group_write(group, "energy", 0) : NULL;
+    double *u = has_energy(s) && !o->group[g].dust ? sph_group_write(group, "energy", 0) : NULL;
     for (long i = 0; m && rho && i < n; i++) {
       m[i] = (double)o->particle[first + i].m;
       rho[i] = (double)o->particle[first + i].rho;
@@ -331,7 +344,8 @@ scene_rates scene_evaluate(const scene *s, sph_sim *sim)
       copy(r.dx[k], first, n, sph_group_rate(group, "position", k));
       copy(r.a[k], first, n, sph_group_rate(group, "velocity", k));
     }
-    if (has_energy(s)) copy(r.du, first, n, sph_group_rate(group, energy_fields[o->energy], 0));
+    if (has_energy(s) && !o->group[g].dust)
+      copy(r.du, first, n, sph_group_rate(group, energy_fields[o->energy], 0));
   }
   return r;
 }

@@ -13,6 +13,7 @@ typedef struct scene_def {
   int walls;       /* 0: none; 1: three layers at the bottom; 2: at the top, too, which move */
   int no_slip, tension;
   int fluids;  /* 1 or 2, side by side */
+  int dusts;   /* 0, 1 or 2, everywhere, in walls too */
   int thermal; /* ideal gas, else Tait (and linear as the second) */
   int laminar; /* fluids have viscosity, conductivity, specific heat, walls a temperature */
   int outside; /* some particles are whole periods away from the box */

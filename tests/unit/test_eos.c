@@ -716,6 +716,13 @@ static void refusals(void **state)
   eos = sph_eos_polytropic(1, 2, 1.4), eos.p_min = 1, refuse(eos, "p_min");
   eos = sph_eos_mie_grueneisen(1, 1, 1, 1), eos.p_background = 2, refuse(eos, "p_background");
   eos = sph_eos_tait(1000, 40, 7), eos.c_v = -1, refuse(eos, "c_v");
+  eos = sph_eos_dust(), eos.dust = 2, refuse(eos, "dust = 2");
+  eos = sph_eos_dust(), eos.dust = 0, refuse(eos, "rho0"); /* else one like any other */
+  eos = sph_eos_dust(), eos.thermal = 1, refuse(eos, "thermal = 1");
+  eos = sph_eos_dust(), eos.rho0 = 3, refuse(eos, "rho0 = 3");
+  eos = sph_eos_dust(), eos.c0 = 3, refuse(eos, "c0 = 3");
+  eos = sph_eos_dust(), eos.c_v = 3, refuse(eos, "c_v = 3");
+  eos = sph_eos_tait(1000, 40, 7), eos.c_v = -1;
   eos.c_v = NAN, refuse(eos, "c_v"), eos.c_v = INFINITY, refuse(eos, "c_v");
   assert_int_equal(sph_eos_check(NULL, NULL), SPH_ERR_ARGUMENT);
 }
@@ -733,18 +740,31 @@ static void accepted(void **state)
   assert_string_equal(error.text, "");
 }
 
+static void dust(void **state)
+{
+  (void)state;
+  sph_error error = {0};
+  sph_eos eos = sph_eos_dust();
+  double rho[] = {0.1, 7, 1e9}, p[] = {1, 1, 1}, c[] = {1, 1, 1};
+  assert_int_equal(sph_eos_check(&eos, &error), SPH_OK);
+  eos.pressure(&eos, 3, rho, NULL, p, c);
+  for (int k = 0; k < 3; k++) assert_true(p[k] == 0 && c[k] == 0);
+  assert_true(isnan(eos.density(&eos, 0, 0)));
+}
+
 static void names(void **state)
 {
   (void)state;
-  const char *expected[] = {"tait",       "linear",    "murnaghan",     "isothermal",
-                            "polytropic", "ideal-gas", "stiffened-gas", "mie-grueneisen"};
+  const char *expected[] = {"tait",          "linear",         "murnaghan",
+                            "isothermal",    "polytropic",     "ideal-gas",
+                            "stiffened-gas", "mie-grueneisen", "dust"};
   const char *name;
   int k = 0;
   for (; (name = sph_eos_name(k)); k++) {
     assert_string_equal(name, expected[k]);
     assert_non_null(strstr(sph_eos_formula(name), "p = "));
   }
-  assert_int_equal(k, 8);
+  assert_int_equal(k, 9);
   assert_null(sph_eos_name(-1));
   assert_null(sph_eos_formula("van-der-waals"));
   assert_null(sph_eos_formula(NULL));
@@ -761,6 +781,7 @@ int main(void)
       cmocka_unit_test(cut),
       cmocka_unit_test(ideal_gas),
       cmocka_unit_test(slopes),
+      cmocka_unit_test(dust),
       cmocka_unit_test(thermal_sound_speed),
       cmocka_unit_test(thermal_inverse),
       cmocka_unit_test(thermodynamics),

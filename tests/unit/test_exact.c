@@ -7,9 +7,11 @@
 #include <string.h>
 
 #include <cmocka.h>
+#include <complex.h>
 #include <gsl/gsl_deriv.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include <gsl/gsl_poly.h>
 #include <gsl/gsl_sf_erf.h>
 
 #include "exact.h"
@@ -515,6 +517,145 @@ static void wave(void **state)
   }
 }
 
+/* ---- a fluid with dust */
+
+/* Laibe & Price (2012), section 4.1: v_d = (1 + e^-2t)/2 for densities 1, K = 1, and v_d = 1, v_f =
+ * 0 at the start; else momentum, energy and the equations by differences. */
+static void dusty_box(void **state)
+{
+  (void)state;
+  const sph_exact_dusty_box one = {{1, 0}, {1, 1}, 1, 0}, b = {{1.3, -0.4}, {0.2, 2}, 3, 7};
+  sph_exact_streams s, late, early;
+  for (double t = 0; t < 3; t += 0.25) {
+    assert_int_equal(sph_exact_dusty_box_at(&one, t, &s, NULL), SPH_OK);
+    assert_near(s.dust, (1 + exp(-2 * t)) / 2, 1e-15, "v_d");
+    assert_near(s.fluid, (1 - exp(-2 * t)) / 2, 1e-15, "v_f");
+    const double e = 1e-4;
+    assert_int_equal(sph_exact_dusty_box_at(&b, t + e, &early, NULL), SPH_OK);
+    assert_int_equal(sph_exact_dusty_box_at(&b, t + 2 * e, &s, NULL), SPH_OK);
+    assert_int_equal(sph_exact_dusty_box_at(&b, t + 3 * e, &late, NULL), SPH_OK);
+    assert_near(0.2 * (late.dust - early.dust) / (2 * e), 3 * (s.fluid - s.dust), 2e-5, "dust");
+    assert_near(1.3 * s.fluid + 0.2 * s.dust, 1.3 * -0.4 + 0.2 * 2, 1e-15, "momentum");
+    assert_near(1.3 * (s.u + s.fluid * s.fluid / 2) + 0.1 * s.dust * s.dust, 1.3 * (7 + 0.08) + 0.4,
+                1e-14, "energy");
+  }
+  sph_error error = {0};
+  const sph_exact_dusty_box bad[] = {{{0, 1}, {1, 1}, 1, 0},
+                                     {{1, 1}, {NAN, 1}, 1, 0},
+                                     {{1, 1}, {1, 1}, -1, 0}};
+  for (int k = 0; k < 3; k++)
+    assert_int_equal(sph_exact_dusty_box_at(&bad[k], 1, &s, NULL), SPH_ERR_ARGUMENT);
+  assert_int_equal(sph_exact_dusty_box_at(&one, -1, &s, &error), SPH_ERR_ARGUMENT);
+  assert_non_null(strstr(error.text, "t = -1 s"));
+}
+
+typedef struct dusty {
+  double rho[2], v[2]; /* of the fluid, of the dust */
+} dusty;
+
+static dusty dusty_at(const sph_exact_dusty_wave *w, double t, double x)
+{
+  dusty it;
+  for (int d = 0; d < 2; d++)
+    assert_int_equal(sph_exact_dusty_wave_at(w, t, d, 1, &x, &it.rho[d], &it.v[d], NULL), SPH_OK);
+  return it;
+}
+
+/* The linear equations of both, by differences. */
+static void dusty_wave(void **state)
+{
+  (void)state;
+  const double e = 1e-4, a = 1e-3, rho[2] = {1.2, 0.4};
+  const sph_exact_dusty_wave w = {1.2, 0.4, 3, 0.7, a, 2.2};
+  for (double x = 0; x < 3; x += 0.17)
+    for (double t = 0.1; t < 4; t += 0.23) {
+      dusty here = dusty_at(&w, t, x), late = dusty_at(&w, t + e, x),
+            early = dusty_at(&w, t - e, x);
+      dusty east = dusty_at(&w, t, x + e), west = dusty_at(&w, t, x - e);
+      for (int d = 0; d < 2; d++) {
+        double force = (d ? 1 : -1) * 0.7 * (here.v[0] - here.v[1]);
+        if (!d) force -= 9 * (east.rho[0] - west.rho[0]) / (2 * e);
+        assert_near((late.rho[d] - early.rho[d] + rho[d] * (east.v[d] - west.v[d])) / (2 * e), 0,
+                    1e-6 * a, "continuity");
+        assert_near(rho[d] * (late.v[d] - early.v[d]) / (2 * e), force, 1e-5 * a, "momentum");
+      }
+    }
+  dusty start = dusty_at(&w, 0, 0.3);
+  for (int d = 0; d < 2; d++) {
+    assert_near(start.rho[d], rho[d] * (1 + a * cos(0.66)), 1e-15, "density at the start");
+    assert_near(start.v[d], 3 * a * cos(0.66), 1e-17, "velocity at the start");
+  }
+}
+
+/* Without drag each goes its way; with much, both go together, with c sqrt(rho_f/rho). */
+static void dusty_wave_limits(void **state)
+{
+  (void)state;
+  const sph_exact_dusty_wave none = {1.2, 0.4, 3, 0, 1e-3, 2.2},
+                             much = {1.2, 0.4, 3, 1e7, 1e-3, 2.2};
+  const sph_exact_wave alone = {1.2, 0, 3, 1e-3, 2.2, 0};
+  const double slow = sqrt(1.2 / 1.6);
+  for (double t = 0; t < 5; t += 0.31)
+    for (double x = 0; x < 3; x += 0.29) {
+      dusty free = dusty_at(&none, t, x), bound = dusty_at(&much, t, x);
+      sph_exact_gas gas = sph_exact_wave_at(&alone, t, x);
+      double kx = 2.2 * x, wt = 2.2 * 3 * t, swt = slow * wt;
+      assert_near(free.rho[0], gas.rho, 1e-14, "fluid alone, density");
+      assert_near(free.v[0], gas.u, 1e-15, "fluid alone, velocity");
+      assert_near(free.v[1], 3e-3 * cos(kx), 1e-16, "dust alone, velocity");
+      assert_near(free.rho[1], 0.4 * (1 + 1e-3 * (cos(kx) + wt * sin(kx))), 1e-15,
+                  "dust alone, density");
+      for (int d = 0; d < 2; d++) {
+        assert_near(bound.v[d], 3e-3 * (cos(kx) * cos(swt) + slow * sin(kx) * sin(swt)), 1e-8,
+                    "bound, velocity");
+        assert_near(bound.rho[d] / much.amplitude, /* relative to the crest, by continuity */
+                    (d ? 0.4 : 1.2) * (1e3 + cos(kx) * cos(swt) + sin(kx) * sin(swt) / slow), 1e-5,
+                    "bound, density");
+      }
+    }
+}
+
+/* Damped as the roots of lambda^3 + K (1/rho_f + 1/rho_d) lambda^2 + w^2 lambda + w^2 K/rho_d = 0
+ * say (Laibe & Price 2011): of three exponentials at equal intervals each is a fixed combination of
+ * the last three. */
+static void dusty_wave_roots(void **state)
+{
+  (void)state;
+  for (double K = 1e-3; K < 1e4; K *= 3) {
+    const sph_exact_dusty_wave w = {1.2, 0.4, 3, K, 1, 2.2};
+    const double w2 = 36 * 1.21, tau = 0.05;
+    gsl_complex root[3];
+    double complex z[3];
+    gsl_poly_complex_solve_cubic(K / 1.2 + K / 0.4, w2, w2 * K / 0.4, &root[0], &root[1], &root[2]);
+    for (int k = 0; k < 3; k++) z[k] = cexp(tau * (GSL_REAL(root[k]) + I * GSL_IMAG(root[k])));
+    double one = creal(z[0] + z[1] + z[2]), three = creal(z[0] * z[1] * z[2]);
+    double two = creal(z[0] * z[1] + z[1] * z[2] + z[2] * z[0]);
+    for (double t = 0; t < 3; t += 0.7)
+      for (int d = 0; d < 2; d++) {
+        double v[4];
+        for (int k = 0; k < 4; k++) v[k] = dusty_at(&w, t + k * tau, 0.1).v[d];
+        assert_near(v[3], one * v[2] - two * v[1] + three * v[0], 1e-12 * (10 + K), "roots");
+      }
+  }
+}
+
+static void dusty_wave_refusals(void **state)
+{
+  (void)state;
+  const sph_exact_dusty_wave bad[] = {{0, 1, 1, 1, 1, 1},   {1, -1, 1, 1, 1, 1},
+                                      {1, 1, 0, 1, 1, 1},   {1, 1, 1, NAN, 1, 1},
+                                      {1, 1, 1, 1, NAN, 1}, {1, 1, 1, 1, 1, 0}};
+  const sph_exact_dusty_wave good = {1, 1, 1, 1, 1, 1};
+  double x = 0, v;
+  sph_error error = {0};
+  for (int k = 0; k < 6; k++)
+    assert_int_equal(sph_exact_dusty_wave_at(&bad[k], 1, 0, 1, &x, NULL, &v, NULL),
+                     SPH_ERR_ARGUMENT);
+  assert_int_equal(sph_exact_dusty_wave_at(&good, -1, 0, 1, &x, NULL, &v, &error),
+                   SPH_ERR_ARGUMENT);
+  assert_non_null(strstr(error.text, "t = -1 s"));
+}
+
 /* ---- two layers: balance in each, one pressure where they meet */
 
 static void layers(void **state)
@@ -563,6 +704,11 @@ int main(void)
       cmocka_unit_test(heat_refusals),
       cmocka_unit_test(taylor_green),
       cmocka_unit_test(wave),
+      cmocka_unit_test(dusty_box),
+      cmocka_unit_test(dusty_wave),
+      cmocka_unit_test(dusty_wave_limits),
+      cmocka_unit_test(dusty_wave_roots),
+      cmocka_unit_test(dusty_wave_refusals),
       cmocka_unit_test(layers),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
