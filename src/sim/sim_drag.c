@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "drag_loops.h"
+#include "sim_drag.h"
 #include "sim_rhs.h"
 
 int sph_sim_drag_acts(const sph_sim *sim, const sph_group *target, const sph_group *source)
@@ -11,17 +12,16 @@ int sph_sim_drag_acts(const sph_sim *sim, const sph_group *target, const sph_gro
          target->eos.dust != source->eos.dust;
 }
 
-static drag_constants constants(const sph_sim *sim, int target, int source)
+drag_constants sph_sim_drag_constants(const sph_sim *sim, int target, int source, double factor)
 {
-  const double rate = sim->terms.drag_rate;
+  const double rate = factor * sim->terms.drag_rate;
   return (drag_constants){.inverse_h = 1 / sim->h,
-                          .K = sim->terms.drag_K,
+                          .K = factor * sim->terms.drag_K,
                           .per_i = sim->group[target]->eos.dust ? rate : 0,
                           .per_j = sim->group[source]->eos.dust ? rate : 0};
 }
 
-/* Of the sums: sigma/h^d of W, and 1/(sigma_k h)^2. */
-static double scale(const sph_sim *sim)
+double sph_sim_drag_scale(const sph_sim *sim)
 {
   double width = sph_kernel_deviation(sim->kernel, sim->dim) * sim->h;
   return sim->W_scale / (width * width);
@@ -34,7 +34,7 @@ static double add_rates(const sph_evaluation *e, int g)
   const sph_view *view = &e->view[g];
   const int *order = sph_neighbors_order(sim->neighbors, g);
   double *const *sum = sim->sorted[g].sum;
-  const double unit = scale(sim);
+  const double unit = sph_sim_drag_scale(sim);
   double most = 0;
 #pragma omp parallel for num_threads(sim->threads) schedule(static) \
     reduction(max                                                   \
@@ -59,7 +59,7 @@ int sph_sim_drag_add(sph_evaluation *e)
     if (group->wall) continue;
     sph_sim_pairs_clear(sim, g, SPH_DRAG_SUMS);
     for (int s = 0; s < sim->groups; s++) {
-      const drag_constants k = constants(sim, g, s);
+      const drag_constants k = sph_sim_drag_constants(sim, g, s, 1);
       if (sph_sim_drag_acts(sim, group, sim->group[s])) sph_sim_pairs_loop(sim, loop, g, s, &k);
     }
     double *rate = &e->drag_rate[group->eos.dust];

@@ -2,7 +2,8 @@
  * stage: f_I leaves them as they are in `known`.  One unknown after another:
  *
  *   rho   density diffusion                  V drho/dt = - sum k_ij (rho_i - rho_j) + more
- *   v     laminar and artificial viscosity   m dv/dt = - sum K_ij (v_i - v_j)
+ *   v     laminar and artificial viscosity,
+ *         drag of dust                       m dv/dt = - sum K_ij (v_i - v_j)
  *   u     heating by them with the new v, conduction   m du/dt = Q - sum k_ij (T_i - T_j)
  *
  * each by linear solves with the matrices of matrix_pair.h.  What these do not hold is iterated
@@ -30,7 +31,11 @@
 
 enum { MOST = 40, ROWS = 1024 }; /* iterations; rows from which on threads pay */
 
-enum { LAMINAR = SPH_MORRIS | SPH_MCG, VISCOUS = LAMINAR | SPH_ARTIFICIAL };
+enum {
+  LAMINAR = SPH_MORRIS | SPH_MCG,
+  VISCOUS = LAMINAR | SPH_ARTIFICIAL,
+  CENTRAL = SPH_MCG | SPH_ARTIFICIAL | SPH_DRAG /* forces along r: the vector matrix */
+};
 
 /* Fields that are solved for, one after the other. */
 enum { DENSITY, VELOCITY, ENERGY, UNKNOWNS };
@@ -70,6 +75,12 @@ typedef struct solving {
 } solving;
 
 /* ---- rows ---- */
+
+/* Dust has a velocity only that others act on. */
+static int takes_part(const sph_group *group, const unknown *u)
+{
+  return !group->wall && (!group->eos.dust || u->number == VELOCITY);
+}
 
 static double *field_of(const sph_view *view, const unknown *u, int c)
 {
@@ -199,15 +210,29 @@ static void add_heat(const solving *s, const unknown *u, int g, long row, long i
 
 typedef void each_row(const solving *s, const unknown *u, int g, long row, long i);
 
-/* Calls for the particles of all fluids. */
+/* Calls for the particles of all groups that take part. */
 static void rows(const solving *s, const unknown *u, each_row *each)
 {
   for (int g = 0; g < s->sim->groups; g++) {
     const int *order = sph_neighbors_order(s->sim->neighbors, g);
     const long base = s->own->pattern.base[g], n = s->z[g].n;
-    if (s->sim->group[g]->wall) continue;
+    if (!takes_part(s->sim->group[g], u)) continue;
 #pragma omp parallel for num_threads(s->sim->threads) schedule(static) if (n > ROWS)
     for (long k = 0; k < n; k++) each(s, u, g, base + k, order[k]);
+  }
+}
+
+/* Of other groups: 1 x = 0. */
+static void idle_rows(const solving *s, const unknown *u)
+{
+  struct sph_implicit *own = s->own;
+  for (int g = 0; g < s->sim->groups; g++) {
+    const long base = own->pattern.base[g];
+    if (s->sim->group[g]->wall || takes_part(s->sim->group[g], u)) continue;
+    for (long row = base; row < base + s->z[g].n; row++) {
+      own->x[row] = own->old[row] = own->b[row] = 0;
+      own->weight[row] = u->matrix->A.floor[row] = 1;
+    }
   }
 }
 
@@ -252,6 +277,7 @@ static int fill(const solving *s, const unknown *u)
   int status = sph_sim_matrix_shape(s->sim, &s->own->pattern, u->matrix);
   if (status) return status;
   rows(s, u, set_mass);
+  idle_rows(s, u);
   sph_sim_matrix_fill(&e, &s->own->pattern, u->matrix, s->stage->gamma, u->coupling);
   return SPH_OK;
 }
@@ -312,7 +338,7 @@ static double missed(const solving *s, const unknown *u)
   if (u->number != ENERGY) return 0;
   for (int g = 0; g < s->sim->groups; g++) {
     const int *order = sph_neighbors_order(s->sim->neighbors, g);
-    if (s->sim->group[g]->wall) continue;
+    if (!takes_part(s->sim->group[g], u)) continue;
     sph_sim_energy_internal(s->sim, s->sim->group[g], &s->z[g]);
     for (long k = 0; k < s->z[g].n; k++) {
       const long row = own->pattern.base[g] + k;
@@ -379,7 +405,7 @@ static double turn(const solving *s)
   for (int g = 0; g < s->sim->groups; g++) {
     const int *order = sph_neighbors_order(s->sim->neighbors, g);
     const sph_group *group = s->sim->group[g];
-    if (group->wall) continue;
+    if (!takes_part(group, u)) continue;
     for (long k = 0; k < s->z[g].n; k++) {
       const double energy = s->z[g].energy[order[k]],
                    scale = s->sim->scale[g][field_number(group, u)];
@@ -418,7 +444,7 @@ static void start(const solving *s, int g, long i)
     z->x[d][i] = known->x[d][i];
     if (!u[VELOCITY].there) z->v[d][i] = known->v[d][i];
   }
-  if (!u[DENSITY].there) z->rho[i] = known->rho[i];
+  if (!u[DENSITY].there || s->sim->group[g]->eos.dust) z->rho[i] = known->rho[i];
   if (z->energy) z->energy[i] = known->energy[i];
   for (int q = 0; q < s->sim->terms.scalars; q++) z->s[q][i] = known->s[q][i];
 }
@@ -471,7 +497,7 @@ static int make_unknown(sph_sim *sim, int number, unsigned bits, int coupling)
 {
   struct sph_implicit *own = sim->implicit;
   unknown *u = &own->unknown[number];
-  const int vector = number == VELOCITY && (bits & (SPH_MCG | SPH_ARTIFICIAL));
+  const int vector = number == VELOCITY && (bits & CENTRAL);
   *u = (unknown){.number = number, .there = bits != 0, .coupling = coupling};
   if (!bits) return SPH_OK;
   u->components = number == VELOCITY ? sim->dim : 1;
@@ -486,6 +512,7 @@ static int make_unknown(sph_sim *sim, int number, unsigned bits, int coupling)
   int status = sph_sim_parts_of(sim, &u->part, bits, 0);
   if (!status) status = sph_sim_parts_of(sim, &u->walls, bits, 0);
   u->walls.only_walls = 1;
+  u->walls.drag = 0;
   u->meets_walls = u->part.walls;
   return status;
 }
@@ -498,7 +525,8 @@ int sph_sim_implicit_make(sph_sim *sim)
       SPH_NEW(struct sph_implicit, 1, "implicit stages", &sim->error);
   if (!own) return SPH_ERR_MEMORY;
   int status = make_unknown(sim, DENSITY, bits & SPH_DIFFUSION, SPH_COUPLING_DIFFUSION);
-  if (!status) status = make_unknown(sim, VELOCITY, bits & VISCOUS, SPH_COUPLING_VISCOSITY);
+  if (!status)
+    status = make_unknown(sim, VELOCITY, bits & (VISCOUS | SPH_DRAG), SPH_COUPLING_VISCOSITY);
   if (!status) status = make_unknown(sim, ENERGY, bits & SPH_CONDUCTION, SPH_COUPLING_CONDUCTION);
   if (status) return status;
   int energies = 0, thermal = 0;

@@ -27,6 +27,7 @@ int sph_sim_interaction_listed(const sph_sim *sim, const sph_group *target, cons
 static unsigned terms_of(const sph_part *part, const sph_group *target, const sph_group *source)
 {
   unsigned terms = part->terms;
+  if (!sph_sim_interaction_same_species(target, source)) return 0;
   if (target->eos.dust) return terms & (SPH_CONTINUITY | SPH_FORM_C2 | SPH_FORM_PHI | SPH_THERMAL);
   if (!sph_sim_interaction_same_fluid(target, source)) terms &= ~(unsigned)SPH_DIFFUSION;
   if (!source->wall) return terms;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "memory.h"
+#include "sim_drag.h"
 
 enum { BLOCKS = 64, ROWS = 1024 }; /* a thread's share */
 
@@ -213,6 +214,10 @@ static matrix_constants constants_of(const sph_evaluation *e, int target, int so
                         .regular = coupling != SPH_COUPLING_DIFFUSION};
   if (coupling == SPH_COUPLING_VISCOSITY && (k.fluid.terms & SPH_MORRIS))
     k.scalar = k.vector * k.fluid.laminar;
+  if (coupling == SPH_COUPLING_VISCOSITY && e->part->drag && sph_sim_drag_acts(sim, i, j)) {
+    k.dragged = 1;
+    k.drag = sph_sim_drag_constants(sim, target, source, gamma * sph_sim_drag_scale(sim));
+  }
   if (coupling == SPH_COUPLING_CONDUCTION && (k.fluid.terms & SPH_CONDUCTION))
     k.scalar = k.vector * k.fluid.conduction;
   if (coupling == SPH_COUPLING_DIFFUSION && (k.fluid.terms & SPH_DIFFUSION))

@@ -25,6 +25,11 @@ typedef struct drag_constants {
   double per_i, per_j; /* 1/t_s of the end that is dust, 0 of the other [1/s] */
 } drag_constants;
 
+BODY vec drag_coefficient(int dim, const drag_constants *k, const vec *i, const vec *j)
+{
+  return k->K + k->per_i * i[slot_rho(dim)] + k->per_j * j[slot_rho(dim)];
+}
+
 BODY void drag_pair(int dim, int kernel, const drag_constants *k, const vec *i, const vec *j,
                     vec *sum)
 {
@@ -35,9 +40,7 @@ BODY void drag_pair(int dim, int kernel, const drag_constants *k, const vec *i, 
   }
   vec rv = fluid_dot(dim, r, v), r2 = fluid_dot(dim, r, r);
   vec W = kernel_shape_w(kernel, dim, v_sqrt(r2) * k->inverse_h);
-  vec rho_i = i[slot_rho(dim)], rho_j = j[slot_rho(dim)];
-  vec K = k->K + k->per_i * rho_i + k->per_j * rho_j;
-  vec weight = K * j[slot_V(dim)] / rho_i * W;
+  vec weight = drag_coefficient(dim, k, i, j) * j[slot_V(dim)] / i[slot_rho(dim)] * W;
   for (int d = 0; d < dim; d++) sum[SPH_DRAG_A + d] -= weight * rv * r[d];
   sum[SPH_DRAG_HEAT] += weight * rv * rv;
   sum[SPH_DRAG_RATE] += weight * r2 * (1.0 / dim);

@@ -16,7 +16,7 @@
 #include "sim_rhs.h"
 
 /* Terms of a scene, and which are implicit. */
-enum { MORRIS = 1, MCG = 2, ARTIFICIAL = 4, CONDUCTION = 8, MOLTENI = 16, ANTUONO = 32 };
+enum { MORRIS = 1, MCG = 2, ARTIFICIAL = 4, CONDUCTION = 8, MOLTENI = 16, ANTUONO = 32, DRAG = 64 };
 
 static void choose(oracle *o, unsigned terms, int k)
 {
@@ -27,6 +27,8 @@ static void choose(oracle *o, unsigned terms, int k)
   if (terms & CONDUCTION) o->conduction = 1;
   if (terms & MOLTENI) o->diffusion = ORACLE_MOLTENI, o->delta = 0.1L;
   if (terms & ANTUONO) o->diffusion = ORACLE_ANTUONO, o->delta = 0.1L;
+  o->drag = (terms & DRAG) != 0;
+  o->drag_K = k % 2 ? 300 : 0, o->drag_rate = k % 2 ? 0 : 0.5L;
 }
 
 static void make_implicit(sph_sim *sim, unsigned terms)
@@ -34,6 +36,7 @@ static void make_implicit(sph_sim *sim, unsigned terms)
   if (terms & (MORRIS | MCG)) sph_sim_set_part(sim, "viscosity-laminar", "implicit");
   if (terms & ARTIFICIAL) sph_sim_set_part(sim, "viscosity-artificial", "implicit");
   if (terms & CONDUCTION) sph_sim_set_part(sim, "conduction", "implicit");
+  if (terms & DRAG) sph_sim_set_part(sim, "drag", "implicit");
   if (terms & (MOLTENI | ANTUONO)) sph_sim_set_part(sim, "delta", "implicit");
 }
 
@@ -84,13 +87,14 @@ static void check(unsigned terms, unsigned implicit, int k, int thermal, double 
   scene_def def = {.dim = 1 + k % 3,
                    .kernel = k % ORACLE_KERNELS,
                    .fluids = 1 + k / 2 % 2,
+                   .dusts = terms & DRAG ? 1 + k / 4 % 2 : 0,
                    .thermal = thermal,
                    .laminar = 1,
                    .walls = k / 3 % 3,
                    .no_slip = 1,
                    .random = 0,
                    .seed = (unsigned long)(300 + k)};
-  def.n = def.dim == 1 ? 40 : def.dim == 2 ? 14 : 9;
+  def.n = def.dim == 1 ? 40 : def.dim == 2 ? 14 : def.dusts ? 8 : 9;
   for (int d = 0; d < def.dim; d++) def.periodic[d] = !def.walls || d < def.dim - 1;
   scene s;
   scene_make(&s, &def);
@@ -130,19 +134,26 @@ static void diffusion(void **state)
   (void)state;
   for (int k = 0; k < 12; k++) check(k % 2 ? MOLTENI : ANTUONO, MOLTENI | ANTUONO, k, 0, 0.02);
 }
+static void drag(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 9; k++) check(DRAG | (k % 3 ? 0 : CONDUCTION), DRAG, k, k % 2, 100);
+}
 static void everything(void **state)
 {
   (void)state;
   for (int k = 0; k < 24; k++)
-    check((k % 2 ? MORRIS : MCG) | ARTIFICIAL | CONDUCTION | (k % 4 == 3 ? 0 : MOLTENI), ~0u, k,
-          k % 4 == 3, 0.02);
+    check((k % 2 ? MORRIS : MCG) | ARTIFICIAL | CONDUCTION | (k % 4 == 3 ? 0 : MOLTENI) |
+              (k % 4 == 1 ? DRAG : 0),
+          ~0u, k, k % 4 == 3, 0.02);
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(morris),     cmocka_unit_test(mcg),       cmocka_unit_test(conduction),
-      cmocka_unit_test(artificial), cmocka_unit_test(diffusion), cmocka_unit_test(everything),
+      cmocka_unit_test(artificial), cmocka_unit_test(diffusion), cmocka_unit_test(drag),
+      cmocka_unit_test(everything),
   };
   return cmocka_run_group_tests_name("implicit", tests, NULL, NULL);
 }
