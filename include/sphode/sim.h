@@ -46,8 +46,9 @@ SPH_API void sph_sim_add_term(sph_sim *sim, sph_term term);
 /* The terms of that name belong to a part of f: "explicit" or "slow" (the same; all terms at
  * first), "implicit" for integrators imex:<table>, "fast" for mri:<coupling>.  After the terms were
  * added, before the run.  Implicit can be viscosity-laminar, viscosity-artificial, conduction,
- * delta and drag; where no part is set, viscosity-laminar, conduction and drag are, with imex.  dx/dt = v belongs
- * to the part of the pressure force.  Term NULL, part "explicit": all terms, as if none was set. */
+ * delta and drag; where no part is set, viscosity-laminar, conduction and drag are, with imex.
+ * dx/dt = v belongs to the part of the pressure force.  Term NULL, part "explicit": all terms, as
+ * if none was set. */
 SPH_API void sph_sim_set_part(sph_sim *sim, const char *term, const char *part);
 /* New parameters of a built-in term that the simulation has, between steps or in the change of an
  * event: gravity (of all that were added), harmonic, viscosity-artificial, viscosity-signal,

@@ -11,7 +11,8 @@
  *          density rho_0 [1 + e cos(kx)], velocity e c cos(kx).  With w = c k and the complex
  *          amplitudes D_f, D_d of density over -i rho_0/c, V_f, V_d of velocity, for e^(ikx):
  *
- *     D_f' = w V_f,  V_f' = -w D_f - K/rho_f (V_f - V_d),  V_d' = K/rho_d (V_f - V_d),  D_d' = w V_d
+ *     D_f' = w V_f,  V_f' = -w D_f - K/rho_f (V_f - V_d)
+ *     D_d' = w V_d,  V_d' = K/rho_d (V_f - V_d)
  *
  *   of which the solution is the exponential of a real matrix. */
 #include <gsl/gsl_errno.h>

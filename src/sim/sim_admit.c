@@ -127,11 +127,11 @@ static double conduction(const sph_evaluation *e, const sph_group *group, const 
   return 0.125 * sim->h * sim->h * x->lightest * group->eos.c_v / group->conductivity;
 }
 
-/* The time in which a relative velocity decays (Laibe & Price 2012). */
+/* Half of the time in which a relative velocity decays, which leapfrog is just stable for. */
 static double drag(const sph_evaluation *e)
 {
   double rate = e->drag_rate[0] + e->drag_rate[1];
-  return (e->part->limit_terms & SPH_DRAG) && rate > 0 ? 1 / rate : INFINITY;
+  return (e->part->limit_terms & SPH_DRAG) && rate > 0 ? 0.5 / rate : INFINITY;
 }
 
 static void lower(double *limit, double dt) { *limit = fmin(*limit, dt); }

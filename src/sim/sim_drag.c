@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "drag_loops.h"
-#include "sim_drag.h"
 #include "sim_rhs.h"
 
 int sph_sim_drag_acts(const sph_sim *sim, const sph_group *target, const sph_group *source)
@@ -12,19 +11,20 @@ int sph_sim_drag_acts(const sph_sim *sim, const sph_group *target, const sph_gro
          target->eos.dust != source->eos.dust;
 }
 
-drag_constants sph_sim_drag_constants(const sph_sim *sim, int target, int source, double factor)
-{
-  const double rate = factor * sim->terms.drag_rate;
-  return (drag_constants){.inverse_h = 1 / sim->h,
-                          .K = factor * sim->terms.drag_K,
-                          .per_i = sim->group[target]->eos.dust ? rate : 0,
-                          .per_j = sim->group[source]->eos.dust ? rate : 0};
-}
-
-double sph_sim_drag_scale(const sph_sim *sim)
+/* sigma/h^d of W, and 1/(sigma_k h)^2. */
+static double scale(const sph_sim *sim)
 {
   double width = sph_kernel_deviation(sim->kernel, sim->dim) * sim->h;
   return sim->W_scale / (width * width);
+}
+
+fluid_constants sph_sim_drag_constants(const sph_sim *sim, int target, int source)
+{
+  const double unit = scale(sim), rate = unit * sim->terms.drag_rate;
+  return (fluid_constants){.inverse_h = 1 / sim->h,
+                           .drag = unit * sim->terms.drag_K,
+                           .drag_i = sim->group[target]->eos.dust ? rate : 0,
+                           .drag_j = sim->group[source]->eos.dust ? rate : 0};
 }
 
 /* Sums to rates of one group; returns the largest SPH_DRAG_RATE. */
@@ -34,16 +34,15 @@ static double add_rates(const sph_evaluation *e, int g)
   const sph_view *view = &e->view[g];
   const int *order = sph_neighbors_order(sim->neighbors, g);
   double *const *sum = sim->sorted[g].sum;
-  const double unit = sph_sim_drag_scale(sim);
   double most = 0;
 #pragma omp parallel for num_threads(sim->threads) schedule(static) \
     reduction(max                                                   \
               : most) if (view->n > 4096)
   for (long s = 0; s < view->n; s++) {
     const long i = order[s];
-    for (int d = 0; d < sim->dim; d++) view->dv[d][i] += unit * sum[SPH_DRAG_A + d][s];
-    if (view->du) view->du[i] += unit * sum[SPH_DRAG_HEAT][s];
-    double rate = unit * sum[SPH_DRAG_RATE][s];
+    for (int d = 0; d < sim->dim; d++) view->dv[d][i] += sum[SPH_DRAG_A + d][s];
+    if (view->du) view->du[i] += sum[SPH_DRAG_HEAT][s];
+    double rate = sum[SPH_DRAG_RATE][s];
     most = rate > most ? rate : most;
   }
   return most;
@@ -59,7 +58,7 @@ int sph_sim_drag_add(sph_evaluation *e)
     if (group->wall) continue;
     sph_sim_pairs_clear(sim, g, SPH_DRAG_SUMS);
     for (int s = 0; s < sim->groups; s++) {
-      const drag_constants k = sph_sim_drag_constants(sim, g, s, 1);
+      const fluid_constants k = sph_sim_drag_constants(sim, g, s);
       if (sph_sim_drag_acts(sim, group, sim->group[s])) sph_sim_pairs_loop(sim, loop, g, s, &k);
     }
     double *rate = &e->drag_rate[group->eos.dust];

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "memory.h"
-#include "sim_drag.h"
 
 enum { BLOCKS = 64, ROWS = 1024 }; /* a thread's share */
 
@@ -215,8 +214,8 @@ static matrix_constants constants_of(const sph_evaluation *e, int target, int so
   if (coupling == SPH_COUPLING_VISCOSITY && (k.fluid.terms & SPH_MORRIS))
     k.scalar = k.vector * k.fluid.laminar;
   if (coupling == SPH_COUPLING_VISCOSITY && e->part->drag && sph_sim_drag_acts(sim, i, j)) {
-    k.dragged = 1;
-    k.drag = sph_sim_drag_constants(sim, target, source, gamma * sph_sim_drag_scale(sim));
+    k.fluid = sph_sim_drag_constants(sim, target, source);
+    k.drag = gamma;
   }
   if (coupling == SPH_COUPLING_CONDUCTION && (k.fluid.terms & SPH_CONDUCTION))
     k.scalar = k.vector * k.fluid.conduction;

@@ -23,6 +23,8 @@ static const struct {
     {"conductivity-artificial.alpha", SPH_CONDUCTIVITY, offsetof(sph_term_set, alpha_u)},
     {"delta.delta", SPH_DIFFUSION, offsetof(sph_term_set, delta)},
     {"xsph.epsilon", SPH_XSPH, offsetof(sph_term_set, epsilon)},
+    {"drag.K", SPH_DRAG, offsetof(sph_term_set, drag_K)},
+    {"drag.rate", SPH_DRAG, offsetof(sph_term_set, drag_rate)}, /* 1/stopping time */
     {"gravity.x", 0, offsetof(sph_term_set, g)},
     {"gravity.y", 0, offsetof(sph_term_set, g) + sizeof(double)},
     {"gravity.z", 0, offsetof(sph_term_set, g) + 2 * sizeof(double)},
@@ -106,6 +108,7 @@ static void look(search *s)
     double *value = (double *)((char *)&sim->terms + term_numbers[k].offset);
     int there = term_numbers[k].bits ? (sim->loop_terms & term_numbers[k].bits) != 0
                                      : sim->part[SPH_WHOLE].gravity;
+    if (term_numbers[k].bits == SPH_DRAG && *value == 0) continue; /* it is the other one */
     if (there) offer(s, value, 1, "%s%s", term_numbers[k].name, "");
   }
   for (int k = 0; k < sim->terms.called; k++)

@@ -72,8 +72,9 @@ int sph_sim_interaction_same_species(const sph_group *target, const sph_group *s
 /* Has target a list of neighbours in source? */
 int sph_sim_interaction_listed(const sph_sim *sim, const sph_group *target,
                                const sph_group *source);
-/* Is there drag between them? */
+/* Is there drag between them?  Its constants. */
 int sph_sim_drag_acts(const sph_sim *sim, const sph_group *target, const sph_group *source);
+fluid_constants sph_sim_drag_constants(const sph_sim *sim, int target, int source);
 /* Which terms of a part use tiles, and what these hold. */
 int sph_sim_interaction_prepare(sph_sim *sim, sph_part *part);
 /* Before the run: masses that make the lattice sum the reference density. */

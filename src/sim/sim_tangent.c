@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "drag_pair.h"
 #include "eos_table.h"
 #include "gradient_pair.h"
 #include "memory.h"
@@ -42,6 +43,7 @@ static int make_differences(sph_tangent *t)
   const long length = sim->layout.length;
   t->beside_rate = SPH_NEW(double, length, "rates beside a state", &sim->error);
   t->body = SPH_NEW(double, length, "changes of body terms", &sim->error);
+  t->drag = SPH_NEW(double, length, "rates by drag", &sim->error);
   for (int g = 0; g < sim->groups && (sim->terms.called || sim->terms.phi.phi); g++) {
     t->beside[g] =
         SPH_NEW(double, SPH_POINT * sim->group[g]->capacity, "a state beside another", &sim->error);
@@ -83,6 +85,7 @@ void sph_sim_tangent_free(sph_tangent *t)
   }
   sph_memory_free(t->rate);
   sph_memory_free(t->body);
+  sph_memory_free(t->drag);
   sph_memory_free(t->beside_rate);
   sph_memory_free(t);
 }
@@ -135,7 +138,9 @@ static int density(sph_tangent *t)
     if (sim->group[g]->wall) continue;
     const int *order = sph_neighbors_order(sim->neighbors, g);
     clear_sums(t, g);
-    for (int s = 0; s < sim->groups; s++) sph_sim_tangent_loop(t, SPH_TANGENT_density, g, s);
+    for (int s = 0; s < sim->groups; s++)
+      if (sph_sim_interaction_same_species(sim->group[g], sim->group[s]))
+        sph_sim_tangent_loop(t, SPH_TANGENT_density, g, s);
     for (long s = 0; s < sim->group[g]->n; s++)
       t->group[g].point[order[s]].rho =
           sim->W_scale * t->group[g].sum_d[0][s] + W_d / sim->W_scale * t->e.view[g].rho[order[s]];
@@ -220,7 +225,8 @@ static void wall(sph_tangent *t, int g)
   clear_sums(t, g);
   sph_sim_walls_force(&t->e, g, t->g_minus_a[g]);
   for (int f = 0; f < sim->groups; f++)
-    if (!sim->group[f]->wall) sph_sim_tangent_loop(t, SPH_TANGENT_wall, g, f);
+    if (!sim->group[f]->wall && !sim->group[f]->eos.dust)
+      sph_sim_tangent_loop(t, SPH_TANGENT_wall, g, f);
   for (long s = 0; s < sim->group[g]->n; s++) {
     const sph_local k = {t, sim->group[g], &t->e.view[g], order[s], s};
     double in[SPH_PAIR_SUMS];
@@ -255,7 +261,7 @@ static int gradients(sph_tangent *t)
   if (status || !t->e.part->gradients || t->lagged) return status;
   const int dim = sim->dim, sums = gradient_sums(dim);
   for (int g = 0; g < sim->groups; g++) {
-    if (sim->group[g]->wall) continue;
+    if (sim->group[g]->wall || sim->group[g]->eos.dust) continue;
     const int *order = sph_neighbors_order(sim->neighbors, g);
     for (int q = 0; q < sums - dim; q++)
       memcpy(t->group[g].matrix[q], sim->sorted[g].sum[q],
@@ -305,6 +311,33 @@ static void rates(const sph_tangent *t, int g, double *out)
   }
 }
 
+/* Rates of f itself by drag, kept; their changes, added to those by body terms. */
+static int drag(sph_tangent *t)
+{
+  sph_sim *sim = t->sim;
+  sph_evaluation e = t->e;
+  memset(t->drag, 0, (size_t)sim->layout.length * sizeof *t->drag);
+  if (!t->e.part->drag) return SPH_OK;
+  for (int g = 0; g < sim->groups; g++) {
+    const int *order = sph_neighbors_order(sim->neighbors, g);
+    const sph_view to = sph_group_data_view(sim->group[g], t->y, t->body);
+    double *const *sum = t->group[g].sum_d;
+    e.view[g] = sph_group_data_view(sim->group[g], t->y, t->drag);
+    if (sim->group[g]->wall) continue;
+    clear_sums(t, g);
+    for (int s = 0; s < sim->groups; s++)
+      if (sph_sim_drag_acts(sim, sim->group[g], sim->group[s]))
+        sph_sim_tangent_loop(t, SPH_TANGENT_drag, g, s);
+    for (long s = 0; s < sim->group[g]->n; s++) {
+      for (int d = 0; d < sim->dim; d++) to.dv[d][order[s]] += sum[SPH_DRAG_A + d][s];
+      if (to.du) to.du[order[s]] += sum[SPH_DRAG_HEAT][s];
+    }
+  }
+  int status = sph_sim_drag_add(&e);
+  for (long i = 0; i < sim->layout.length; i++) t->rate[i] += t->drag[i];
+  return status;
+}
+
 static int pairs(sph_tangent *t, double *out)
 {
   sph_sim *sim = t->sim;
@@ -313,7 +346,8 @@ static int pairs(sph_tangent *t, double *out)
   sph_sim_tangent_call_tiles(t);
   for (int g = 0; g < sim->groups && t->e.part->pairs; g++)
     for (int s = 0; s < sim->groups && !sim->group[g]->wall; s++)
-      sph_sim_tangent_loop(t, SPH_TANGENT_fluid, g, s);
+      if (sph_sim_interaction_same_species(sim->group[g], sim->group[s]))
+        sph_sim_tangent_loop(t, SPH_TANGENT_fluid, g, s);
   int status = sph_sim_pairs_add(&t->e);
   for (int g = 0; !status && g < sim->groups; g++)
     if (!sim->group[g]->wall) rates(t, g, out);
@@ -349,6 +383,7 @@ int sph_sim_tangent(sph_sim *sim, int part, double t, const double *y, const dou
   if (!status) status = sph_sim_tangent_call_bodies(own);
   if (!status) status = walls(own);
   if (!status) status = gradients(own);
+  if (!status) status = drag(own);
   if (!status) status = pairs(own, out);
   return status;
 }

@@ -42,7 +42,8 @@ typedef struct sph_tangent {
   /* Work of differences, made where there are callbacks or parameters. */
   double *beside[SPH_SETS_MAX]; /* values beside those of a group: [SPH_POINT][capacity] */
   double *beside_rate;          /* rates there, [layout.length] */
-  double *body;                 /* changes of the rates by body terms, [layout.length] */
+  double *body;                 /* changes of the rates by body terms and drag, [layout.length] */
+  double *drag;                 /* the rates by drag, [layout.length] */
   double *record[SPH_SETS_MAX]; /* copies of the records */
 } sph_tangent;
 

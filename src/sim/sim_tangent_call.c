@@ -113,6 +113,7 @@ int sph_sim_tangent_call_rates(sph_tangent *t, double *out)
       e.view[g] = sph_group_data_view(t->sim->group[g], t->y, t->beside_rate);
     set_theta(t, value, at[k] * step);
     status = sph_sim_bodies_add(&e);
+    for (long i = 0; i < t->sim->layout.length; i++) t->beside_rate[i] += t->drag[i];
     for (int g = 0; !status && g < t->sim->groups; g++)
       if (!t->sim->group[g]->wall) sph_sim_pairs_rates(&e, g);
     for (long i = 0; !status && i < t->sim->layout.length; i++)
@@ -254,7 +255,9 @@ static void add_tiles(sph_tangent *t, double factor)
   for (int g = 0; g < sim->groups; g++) {
     if (sim->group[g]->wall) continue;
     sph_sim_pairs_clear(sim, g, sim->fluid_sums);
-    for (int s = 0; s < sim->groups; s++) sph_sim_interaction_tiles(&t->e, g, s);
+    for (int s = 0; s < sim->groups && !sim->group[g]->eos.dust; s++)
+      if (sph_sim_interaction_same_species(sim->group[g], sim->group[s]))
+        sph_sim_interaction_tiles(&t->e, g, s);
     for (int q = 0; q < sim->fluid_sums; q++)
       for (long i = 0; i < sim->group[g]->n; i++)
         t->group[g].sum_d[q][i] += factor * sim->sorted[g].sum[q][i];

@@ -12,6 +12,7 @@ fluid_constants sph_sim_tangent_constants(const sph_tangent *tangent, int pass, 
                                           int source)
 {
   const sph_sim *sim = tangent->sim;
+  if (pass == SPH_TANGENT_drag) return sph_sim_drag_constants(sim, target, source);
   if (pass != SPH_TANGENT_fluid) return sim->constants;
   return sph_sim_interaction_constants(sim, tangent->e.part, sim->group[target],
                                        sim->group[source]);

@@ -10,7 +10,8 @@
  *   d D e e^T = W r r^T/(sigma_k h)^2
  *
  * needs no division by r.  Momentum and angular momentum are kept: the force is central.  The
- * constant factor of W and (sigma_k h)^2 come at the end (sim_drag.c). */
+ * constants hold K_ij = drag + drag_i rho_i + drag_j rho_j times what is constant in W/(sigma_k
+ * h)^2: the sums are rates. */
 #ifndef SPH_DRAG_PAIR_H
 #define SPH_DRAG_PAIR_H
 #include "fluid_pair.h"
@@ -18,19 +19,13 @@
 /* rate: sum_j m_j K_ij/(rho_i rho_j) D_ij [1/s]; those of both ends add up to 1/t_s. */
 enum { SPH_DRAG_A = 0, SPH_DRAG_HEAT = 3, SPH_DRAG_RATE, SPH_DRAG_SUMS };
 
-/* Of one interaction: K_ij = K + rho_dust/t_s. */
-typedef struct drag_constants {
-  double inverse_h;
-  double K;            /* [kg/m^3/s] */
-  double per_i, per_j; /* 1/t_s of the end that is dust, 0 of the other [1/s] */
-} drag_constants;
-
-BODY vec drag_coefficient(int dim, const drag_constants *k, const vec *i, const vec *j)
+/* K_ij sigma/h^d/(sigma_k h)^2. */
+BODY vec drag_coefficient(int dim, const fluid_constants *k, const vec *i, const vec *j)
 {
-  return k->K + k->per_i * i[slot_rho(dim)] + k->per_j * j[slot_rho(dim)];
+  return k->drag + k->drag_i * i[slot_rho(dim)] + k->drag_j * j[slot_rho(dim)];
 }
 
-BODY void drag_pair(int dim, int kernel, const drag_constants *k, const vec *i, const vec *j,
+BODY void drag_pair(int dim, int kernel, const fluid_constants *k, const vec *i, const vec *j,
                     vec *sum)
 {
   vec r[3], v[3];

@@ -85,6 +85,7 @@ typedef struct fluid_constants {
   vec_scalar conduction;               /* 4 kappa_i kappa_j/(kappa_i + kappa_j) [W/(m K)] */
   vec_scalar alpha_u;                  /* artificial conductivity */
   vec_scalar epsilon;                  /* XSPH */
+  vec_scalar drag, drag_i, drag_j;     /* drag_pair.h */
   vec_scalar rho0;                     /* Fourtakas: reference density [kg/m^3], */
   vec_scalar column[3];                /* -gamma g/c0^2 [1/m], */
   vec_scalar series[SPH_FOURTAKAS_TERMS]; /* (1/gamma - k)/(k + 1) */

@@ -16,8 +16,7 @@
  *              m_i m_j |F_ij| h (alpha c_ij - 2 beta mu_ij)/(rho_ij (r^2 + eta^2))
  *            drag, of dust and a fluid (drag_pair.h): q_ij = K_ij V_i V_j W_ij/(sigma_k h)^2
  *
- * F as in the loops of f; its factor sigma/h^(d+2), and gamma, are in the constants; so they are
- * in K_ij, with 1/(sigma_k h)^2. */
+ * F as in the loops of f; its factor sigma/h^(d+2), and gamma, are in the constants. */
 #ifndef SPH_MATRIX_PAIR_H
 #define SPH_MATRIX_PAIR_H
 #include "drag_pair.h"
@@ -27,8 +26,7 @@ typedef struct matrix_constants {
   double scalar;         /* gamma sigma/h^(d+2) C */
   double vector;         /* gamma sigma/h^(d+2) */
   int regular;           /* F of a singular kernel is made finite */
-  int dragged;           /* between dust and a fluid: */
-  drag_constants drag;   /* its coefficients times gamma sigma/h^d/(sigma_k h)^2 */
+  double drag;           /* gamma between dust and a fluid, else 0 */
 } matrix_constants;
 
 typedef struct matrix_pair {
@@ -69,12 +67,12 @@ BODY vec matrix_artificial(int dim, const fluid_constants *k, const matrix_pair 
 }
 
 /* Drag: q of a pair. */
-BODY vec matrix_drag(int dim, int kernel, const drag_constants *k, const matrix_pair *p,
+BODY vec matrix_drag(int dim, int kernel, const matrix_constants *k, const matrix_pair *p,
                      const vec *i, const vec *j)
 {
   const int V = slot_V(dim);
-  vec W = kernel_shape_w(kernel, dim, v_sqrt(p->r2) * k->inverse_h);
-  return drag_coefficient(dim, k, i, j) * i[V] * j[V] * W;
+  vec W = kernel_shape_w(kernel, dim, v_sqrt(p->r2) * k->fluid.inverse_h);
+  return k->drag * drag_coefficient(dim, &k->fluid, i, j) * i[V] * j[V] * W;
 }
 
 /* k and q of a pair. */
@@ -91,7 +89,7 @@ BODY void matrix_vector(int dim, int kernel, const matrix_constants *k, const ve
     for (int d = 0; d < dim; d++) v[d] = i[slot_v(dim) + d] - j[velocity + d];
     q += VVF * matrix_artificial(dim, &k->fluid, p, i, j, v);
   }
-  if (k->dragged) q += matrix_drag(dim, kernel, &k->drag, p, i, j);
+  if (k->drag > 0) q += matrix_drag(dim, kernel, k, p, i, j);
   *along_v = terms & SPH_MORRIS ? laminar : v_set(0);
   *along_r = q;
 }

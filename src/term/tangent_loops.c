@@ -3,6 +3,7 @@
 #include "tangent_loops.h"
 
 #include "density_pair.h"
+#include "drag_pair.h"
 #include "fluid_terms.h"
 #include "gradient_pair.h"
 #include "wall_pair.h"
@@ -44,6 +45,12 @@ BODY void body_density(int dim, const void *c, const vec *i, const vec *j, vec *
   density_pair(dim, k->kernel, &k->fluid, i, j, sum);
 }
 
+BODY void body_drag(int dim, const void *c, const vec *i, const vec *j, vec *sum)
+{
+  const constants *k = c;
+  drag_pair(dim, k->kernel, &k->fluid, i, j, sum);
+}
+
 BODY int slots_of(int pass, int dim)
 {
   return pass == SPH_TANGENT_fluid || pass == SPH_TANGENT_wall ? slot_scalar(dim) : slot_extra(dim);
@@ -54,7 +61,8 @@ BODY int sums_of(int pass, int dim)
   const int sums[] = {[SPH_TANGENT_fluid] = SPH_FLUID_SUMS_ALL,
                       [SPH_TANGENT_wall] = SPH_WALL_SUMS,
                       [SPH_TANGENT_gradient] = gradient_sums(dim),
-                      [SPH_TANGENT_density] = SPH_DENSITY_SUMS};
+                      [SPH_TANGENT_density] = SPH_DENSITY_SUMS,
+                      [SPH_TANGENT_drag] = SPH_DRAG_SUMS};
   return sums[pass];
 }
 

@@ -5,8 +5,8 @@
 #define SPH_TANGENT_LOOPS_H
 #include "tangent_loop.h"
 
-/* X(name): fluid_pair.h, boundary/wall_pair.h, gradient_pair.h, density_pair.h */
-#define SPH_TANGENT_PASSES(X) X(fluid) X(wall) X(gradient) X(density)
+/* X(name): fluid_pair.h, boundary/wall_pair.h, gradient_pair.h, density_pair.h, drag_pair.h */
+#define SPH_TANGENT_PASSES(X) X(fluid) X(wall) X(gradient) X(density) X(drag)
 
 enum sph_tangent_pass {
 #define SPH_TANGENT_PASS(name) SPH_TANGENT_##name,

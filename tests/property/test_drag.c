@@ -117,7 +117,7 @@ static void the_same(void **state)
   }
 }
 
-/* 1/(largest sum of the fluids + largest of the dusts), each sum_j m_j K/(rho_i rho_j) D_ij. */
+/* 0.5/(largest sum of the fluids + largest of the dusts), each sum_j m_j K/(rho_i rho_j) D_ij. */
 static double limit_of(const scene *s)
 {
   const oracle *o = &s->o;
@@ -140,7 +140,7 @@ static double limit_of(const scene *s)
     }
     if (rate > most[is_dust(s, i)]) most[is_dust(s, i)] = rate;
   }
-  return (double)(1 / (most[0] + most[1]));
+  return (double)(0.5L / (most[0] + most[1]));
 }
 
 static void step_limit(void **state)
@@ -210,13 +210,13 @@ static void exact_on_a_line(void **state)
   for (int k = 0; k < 7; k++) {
     streams it = lattices(1, "quintic-spline", 1, k / 7.0, 0.3);
     assert_true(fabs(it.fluid[0] - 1) <= 1e-13 && fabs(it.dust[0] - 1) <= 1e-13);
-    double t = 1 / (K / rho_fluid + K / rho_dust);
+    double t = 0.5 / (K / rho_fluid + K / rho_dust);
     assert_true(fabs(it.limit / t - 1) <= 1e-13);
   }
 }
 
-/* In the plane and in space, too, the drag has the direction of v where the offset is symmetric, and
- * the size of the sum of d x^2 D over the lattice, 1 but for what is left at this h/dx (computed
+/* In the plane and in space, too, the drag has the direction of v where the offset is symmetric,
+ * and the size of the sum of d x^2 D over the lattice, 1 but for what is left at this h/dx (computed
  * elsewhere). */
 static void near_1_on_lattices(void **state)
 {

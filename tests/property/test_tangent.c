@@ -61,6 +61,7 @@ static scene_def choose_scene(int dim, int kernel, unsigned long seed)
   def.tension = one_of(&state, 2);
   for (int d = 0; d < dim; d++) def.periodic[d] = one_of(&state, 2);
   if (def.walls) def.periodic[dim - 1] = 0;
+  def.dusts = seed % 3 == 1 ? 1 + (int)(seed / 3 % 2) : 0;
   return def;
 }
 
@@ -70,6 +71,10 @@ static void any_scene(scene *s, int dim, int kernel, unsigned long seed)
   unsigned long state = seed + 1;
   scene_make(s, &def);
   choose_terms(s, &state);
+  if (def.dusts) {
+    s->o.drag = 1;
+    s->o.drag_K = seed % 2 ? 300 : 0, s->o.drag_rate = seed % 2 ? 0 : 0.5L;
+  }
   for (int d = 0; d < dim; d++)
     if (!def.periodic[d] && one_of(&state, 4) == 0) s->o.omega = 3;
   for (int d = 0; d < dim; d++)
