@@ -160,7 +160,7 @@ static void of_every_integrator(void **state)
   const double fall = 0.3, t = sqrt(2 * fall / g), dt = 0.011;
   double mark = bottom - fall;
   sph_integrator_info info;
-  int tried = 0;
+  int tried = 0, asks = SPH_WANTS_SEPARABLE | SPH_WANTS_DOMINANT;
   for (int k = 0; sph_integrator_info_get(k, &info); k++) {
     if (info.order < 2) continue;
     sph_sim *sim = falling(info.name, dt);
@@ -168,9 +168,15 @@ static void of_every_integrator(void **state)
       sph_group_set_viscosity(sph_sim_group(sim, "block"), 1);
       sph_sim_add_term(sim, sph_term_viscosity_laminar("morris"));
     }
-    if (!strncmp(info.name, "mri:", 4)) sph_sim_set_part(sim, "gravity", "fast");
+    if (info.wants & SPH_WANTS_FAST) sph_sim_set_part(sim, "gravity", "fast");
     sph_sim_add_event(sim, &(sph_event){.name = "own", .value = height, .ctx = &mark, .stop = 1});
-    good(sim, sph_sim_run(sim, 0.4));
+    int status = sph_sim_run(sim, 0.4);
+    if (status && (info.wants & asks) && strstr(sph_sim_error(sim), "there is none")) {
+      print_message("# %s: left out: %s\n", info.name, sph_sim_error(sim));
+      sph_sim_free(sim);
+      continue;
+    }
+    good(sim, status);
     assert_true(sph_sim_stopped_by(sim) != NULL);
     double close = info.wants & SPH_WANTS_IMPLICIT ? 1e-6 : 1e-9; /* stages to 1e-8 */
     double sag = strchr(info.name, ':') && info.order == 2 ? g * dt * dt / 8 : 0;
