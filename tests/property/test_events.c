@@ -191,6 +191,62 @@ static void of_every_integrator(void **state)
   assert_true(tried > 20);
 }
 
+/* The centre of four particles on a spring swings as X0 cos(omega t), whatever they do to each other:
+ * frames between steps, where events are found, have the order of the integrator, up to 4 (cubic
+ * polynomials). */
+static const double X0 = 0.5, omega = 2;
+
+static int off_the_cosine(void *ctx, sph_sim *sim, sph_error *error)
+{
+  const double *x = sph_group_read(sph_sim_group(sim, "patch"), "position", 0);
+  double *worst = ctx, centre = (x[0] + x[1] + x[2] + x[3]) / 4;
+  (void)error;
+  *worst = fmax(*worst, fabs(centre - X0 * cos(omega * sph_sim_time(sim))));
+  return SPH_OK;
+}
+
+/* NaN: it asks for what the simulation has not. */
+static double dense_error(const sph_integrator_info *info, double dt)
+{
+  const double lo[] = {X0 - dx, -dx}, hi[] = {X0 + dx, dx};
+  double worst = 0;
+  sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = dx});
+  sph_group *patch = sph_group_box(sim, "patch", lo, hi, 1);
+  sph_group_set_eos(patch, sph_eos_tait(1, 1, 7));
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, sph_term_pressure());
+  sph_sim_add_term(sim, sph_term_harmonic(omega));
+  if (info->wants & SPH_WANTS_IMPLICIT) {
+    sph_group_set_viscosity(patch, 0.01);
+    sph_sim_add_term(sim, sph_term_viscosity_laminar(NULL));
+  }
+  if (info->wants & SPH_WANTS_FAST) sph_sim_set_part(sim, "harmonic", "fast");
+  sph_sim_set_integrator(sim, &(sph_integrator_def){.method = info->name,
+                                                    .dt_fixed = dt,
+                                                    .stage_tolerance = 1e-13});
+  sph_sim_add_output(sim, (sph_output){.interval = 1e-3, .frame = off_the_cosine, .ctx = &worst});
+  int status = sph_sim_run(sim, 1.5);
+  int lacks = strstr(sph_sim_error(sim), "there is none") != NULL;
+  if (status && !lacks) fail_msg("%s: %s", info->name, sph_sim_error(sim));
+  sph_sim_free(sim);
+  return lacks ? NAN : worst;
+}
+
+static void dense_output_has_the_order(void **state)
+{
+  (void)state;
+  sph_integrator_info info;
+  for (int k = 0; sph_integrator_info_get(k, &info); k++) {
+    if (!strcmp(info.name, "verlet-dual")) continue; /* its errors do not shrink smoothly */
+    double h = info.order == 1 ? 0.005 : 0.04;
+    double coarse = dense_error(&info, h), fine = dense_error(&info, h / 2);
+    double order = log2(coarse / fine), nominal = fmin(info.order, 4);
+    if (isnan(order) && (info.wants & (SPH_WANTS_SEPARABLE | SPH_WANTS_DOMINANT))) continue;
+    if (!(order > nominal - 0.1))
+      fail_msg("%s: %.2e, %.2e, order %.2f, not %g", info.name, coarse, fine, order, nominal);
+  }
+}
+
 /* A point gets wet and dry again as the block falls through it: beside a bisection in the dense
  * output of the same run without events. */
 static double covered(sph_sim *sim)
@@ -765,6 +821,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(moments_are_exact),
       cmocka_unit_test(of_every_integrator),
+      cmocka_unit_test(dense_output_has_the_order),
       cmocka_unit_test(wet_and_dry),
       cmocka_unit_test(points_of_periodic_boxes),
       cmocka_unit_test(front_of_a_dam_break),
