@@ -110,6 +110,18 @@ static void add_scalar(sph_sim *sim)
                                    .scalar = {.name = "c", .scale = 1, .initial = 1}});
 }
 
+/* All that can be implicit, or the fluid's waves fast. */
+static void deal(sph_sim *sim, const variant *v)
+{
+  static const char *const implicit[] = {"viscosity-artificial", "viscosity-laminar", "conduction",
+                                         "delta"};
+  const int implicits = v->thermal ? 3 : 4;
+  for (int k = 0; !strncmp(v->method, "imex:", 5) && k < implicits; k++)
+    sph_sim_set_part(sim, implicit[k], "implicit");
+  if (!strncmp(v->method, "imex:", 5) && v->dust) sph_sim_set_part(sim, "drag", "implicit");
+  if (!strncmp(v->method, "mri:", 4)) sph_sim_set_part(sim, "pressure", "fast");
+}
+
 static double moment(void *ctx, sph_sim *sim)
 {
   (void)ctx;
@@ -179,6 +191,7 @@ static int attach_and_run(sph_sim *sim, const variant *v)
   if (v->thermal) sph_sim_add_term(sim, sph_term_conductivity_artificial(1));
   sph_sim_add_term(sim, sph_term_gravity((double[3]){0, -9.81, 0}));
   sph_sim_add_term(sim, (sph_term){"push", .body = push, .ctx = &let_go[TERM], .free = count});
+  deal(sim, v);
   sph_sim_set_integrator(sim, &(sph_integrator_def){.method = v->method});
   sph_sim_add_output(sim, (sph_output){"nothing", 0.002, .frame = frame, .ctx = &let_go[OUTPUT],
                                        .free = count});
@@ -237,6 +250,9 @@ static const variant variants[] = {
     {"erk:bogacki-shampine-4-2-3", NULL, 1, 1, SUMMED, "entropy", 0, 0},
     {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, PHI, "u", 1, 0},
     {"leapfrog", NULL, 0, 1, PHI, "total", 1, 1},
+    {"imex:ark324l2sa-4-2-3", NULL, 1, 1, C2, "total", 0, 0},
+    {"imex:ark324l2sa-4-2-3", NULL, 0, 0, C2, "temperature", 1, 1},
+    {"mri:kw3", NULL, 1, 0, C2, NULL, 0, 0},
 };
 enum { VARIANTS = sizeof variants / sizeof *variants };
 
