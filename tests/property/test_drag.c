@@ -216,8 +216,8 @@ static void exact_on_a_line(void **state)
 }
 
 /* In the plane and in space, too, the drag has the direction of v where the offset is symmetric,
- * and the size of the sum of d x^2 D over the lattice, 1 but for what is left at this h/dx (computed
- * elsewhere). */
+ * and the size of the sum of d x^2 D over the lattice, 1 but for what is left at this h/dx
+ * (computed elsewhere). */
 static void near_1_on_lattices(void **state)
 {
   (void)state;

@@ -742,14 +742,12 @@ static void accepted(void **state)
 
 static void dust(void **state)
 {
-  (void)state;
-  sph_error error = {0};
   sph_eos eos = sph_eos_dust();
-  double rho[] = {0.1, 7, 1e9}, p[] = {1, 1, 1}, c[] = {1, 1, 1};
-  assert_int_equal(sph_eos_check(&eos, &error), SPH_OK);
-  eos.pressure(&eos, 3, rho, NULL, p, c);
-  for (int k = 0; k < 3; k++) assert_true(p[k] == 0 && c[k] == 0);
-  assert_true(isnan(eos.density(&eos, 0, 0)));
+  double rho[] = {0.1, 1e9}, p[] = {1, 1}, c[] = {1, 1};
+  (void)state;
+  assert_int_equal(sph_eos_check(&eos, NULL), SPH_OK);
+  eos.pressure(&eos, 2, rho, NULL, p, c);
+  assert_true(p[0] == 0 && p[1] == 0 && c[0] == 0 && c[1] == 0 && isnan(eos.density(&eos, 0, 0)));
 }
 
 static void names(void **state)
