@@ -10,6 +10,7 @@
 #include "case_event.h"
 #include "case_material.h"
 #include "case_schema.h"
+#include "case_solution.h"
 #include "words.h"
 
 static int check_value(sph_case *c, const sph_case_key *key, sph_case_node *node);
@@ -336,6 +337,22 @@ static int check_forms(sph_case *c)
                               summation ? "" : row);
 }
 
+static int check_comparisons(sph_case *c)
+{
+  const sph_case_node *list = sph_case_reader_find(c->root, "compare");
+  for (const sph_case_node *one = list ? list->first : NULL; one; one = one->next) {
+    const sph_case_node *group = sph_case_reader_find(one, "group");
+    const sph_case_node *map =
+        group ? sph_case_reader_find(sph_case_reader_find(c->root, "groups"), group->text) : NULL;
+    if (!group) continue;
+    if (!sph_case_solution_find(sph_case_reader_find(one, "reference")->first->key))
+      return FAIL_KEY(group, "group: belongs to solutions in space");
+    if (strcmp(sph_case_reader_text(map, "kind", ""), "fluid") != 0)
+      return FAIL(group, 0, "group: there is no fluid '%.60s'", group->text);
+  }
+  return SPH_OK;
+}
+
 static int check_drag(sph_case *c)
 {
   const sph_case_node *drag = sph_case_reader_find(sph_case_reader_find(c->root, "terms"), "drag");
@@ -360,5 +377,6 @@ int sph_case_check(sph_case *c)
   if (!status) status = sph_case_material_check(c);
   if (!status) status = sph_case_event_check(c);
   if (!status) status = check_drag(c);
+  if (!status) status = check_comparisons(c);
   return status ? status : check_forms(c);
 }

@@ -29,7 +29,9 @@ typedef struct quantity {
 
 typedef struct profile {
   double time; /* [s] */
-  long n;
+  long n;      /* particles that are compared, */
+  long first;  /* of all those of fluids, in the order of the groups */
+  long all;
   int components;
   double *x[3], *run[3], *exact[3]; /* [n]; [dim], [components] */
   double *weight;                   /* [n] volume [m^dim] */
@@ -72,13 +74,13 @@ static int along(const comparer *a)
 
 /* ---- particles: of the simulation as it is, or of a snapshot */
 
-static int make(profile *p, int dim, int components, long n, sph_error *error)
+static int make(profile *p, int dim, int components, sph_error *error)
 {
+  const long n = p->n;
   int arrays = 0;
   p->memory = sph_memory_new((size_t)n + 1, 10 * sizeof *p->memory, "a profile", error);
   if (!p->memory) return SPH_ERR_MEMORY;
   p->components = components;
-  p->n = n;
   for (int d = 0; d < dim; d++) p->x[d] = p->memory + n * arrays++;
   for (int c = 0; c < components; c++) p->run[c] = p->memory + n * arrays++;
   for (int c = 0; c < components; c++) p->exact[c] = p->memory + n * arrays++;
@@ -86,20 +88,28 @@ static int make(profile *p, int dim, int components, long n, sph_error *error)
   return SPH_OK;
 }
 
+/* Of those that are compared: one, or all. */
 static const sph_group *next_fluid(const comparer *a, int *k)
 {
+  const char *only = get_text(a->node, "group", NULL);
   const sph_group *group;
   for (; (group = sph_sim_group_get(a->sim, *k)); ++*k)
-    if (!strcmp(sph_group_kind(group), "fluid")) break;
+    if (!strcmp(sph_group_kind(group), "fluid") && (!only || !strcmp(only, sph_group_name(group))))
+      break;
   return group;
 }
 
-static long count_fluid(const comparer *a)
+static void count_fluids(const comparer *a, profile *p)
 {
   const sph_group *group;
-  long n = 0;
-  for (int k = 0; (group = next_fluid(a, &k)); k++) n += sph_group_count(group);
-  return n;
+  int first = 0;
+  next_fluid(a, &first);
+  for (int k = 0; (group = next_fluid(a, &k)); k++) p->n += sph_group_count(group);
+  for (int k = 0; (group = sph_sim_group_get(a->sim, k)); k++) {
+    if (strcmp(sph_group_kind(group), "fluid") != 0) continue;
+    p->all += sph_group_count(group);
+    if (k < first) p->first += sph_group_count(group);
+  }
 }
 
 static int from_simulation(const comparer *a, const quantity *q, profile *p)
@@ -131,15 +141,16 @@ static int read_field(const comparer *a, const char *path, const char *field, pr
   if (status) return status;
   const double *x = s.x[SPH_FLUIDS], *value = s.value[SPH_FLUIDS];
   long found = x && value ? s.n[SPH_FLUIDS] : 0;
-  if (!x || !value || found != p->n) {
+  if (!x || !value || found != p->all) {
     sph_snapshot_read_free(&s);
     return sph_error_set(a->error, SPH_ERR_FILE,
                          "%s: %ld fluid particles with %s; the case has %ld", path, found, field,
-                         p->n);
+                         p->all);
   }
   for (long i = 0; i < p->n; i++) {
-    for (int d = 0; d < a->c->dim; d++) p->x[d][i] = x[3 * i + d];
-    to[i] = value[i];
+    const long from = p->first + i;
+    for (int d = 0; d < a->c->dim; d++) p->x[d][i] = x[3 * from + d];
+    to[i] = value[from];
   }
   sph_snapshot_read_free(&s);
   return SPH_OK;
@@ -223,7 +234,8 @@ static int take(const comparer *a, const double *at, const quantity *q, const do
   char path[SPH_PATH];
   double now = sph_sim_time(a->sim);
   int past = at && fabs(*at - now) > 1e-9 * now;
-  int status = make(p, a->c->dim, q->components, count_fluid(a), a->error);
+  count_fluids(a, p);
+  int status = make(p, a->c->dim, q->components, a->error);
   p->time = at ? *at : now;
   if (!status && past) status = find_snapshot(a, p->time, path);
   if (!status) status = past ? from_snapshot(a, path, q, p) : from_simulation(a, q, p);
@@ -389,11 +401,12 @@ int sph_case_profile_compare(const comparer *a, sph_case_distance *d, char note[
 {
   double times[TIMES];
   profile p[TIMES] = {{0}};
+  int first = 0;
   note[0] = 0;
   if (!strcmp(d->norm, "mean") || !strcmp(d->norm, "arrival"))
     return fail(a, child_of(a->node, "norm"), "norm: solutions in space know rms, l1, max");
   if (!a->sim) return fail(a, a->node, "a solution in space is compared with a simulation");
-  if (count_fluid(a) == 0) return fail(a, a->node, "there is no fluid");
+  if (!next_fluid(a, &first)) return fail(a, a->node, "there is no fluid");
   int n = times_of(a, times);
   int status = n < 0 ? n : compare_all(a, d, times, n, p, note);
   for (int k = 0; k < TIMES; k++) sph_memory_free(p[k].memory);

@@ -335,6 +335,37 @@ static void fields_are_compared_at_several_times(void **state)
   end_wave(&w);
 }
 
+/* Dust of 3 m/s in a gas of 1 m/s, compared with both at 1 m/s: alone and together. */
+static void one_fluid_of_several_is_compared(void **state)
+{
+#define STREAMS                                                                 \
+  "reference: {dusty-box: {coefficient: 0, fluid: {density: 2, velocity: 1},\n" \
+  "  dust: {density: 2, velocity: 1}}}, at: [0, 1/12, 1/3]}\n"
+  static const char text[] =
+      "dimension: 1\nspacing: 0.025\nperiodic: {axes: [x], lower: [0], upper: [1]}\n"
+      "groups: {dust: {kind: fluid, density: 2, shapes: [{box: {lower: [0], upper: [1]}}],\n"
+      "  eos: {dust: }, initial: {velocity: [3]}}, gas: {kind: fluid, density: 2,\n"
+      "  shapes: [{box: {lower: [0], upper: [1]}}], eos: {linear: {sound_speed: 3}},\n"
+      "  initial: {velocity: [1]}}}\n"
+      "terms: {continuity: , pressure: , drag: {coefficient: 0}}\nrun: {end: 1/3}\n"
+      "output: {snapshots: 1/12}\ncompare:\n"
+      "  - {name: gas, quantity: velocity, group: gas, " STREAMS
+      "  - {name: dust, quantity: velocity, group: dust, " STREAMS
+      "  - {name: both, quantity: velocity, " STREAMS;
+#undef STREAMS
+  const double right[] = {0, 2, sqrt(2)};
+  sph_error error = {0};
+  sph_comparison *list;
+  int n;
+  (void)state;
+  wave_run w = run_wave(text);
+  if (sph_case_compare(w.c, w.sim, w.directory, &list, &n, &error)) fail_msg("%s", error.text);
+  assert_int_equal(n, 3);
+  for (int k = 0; k < n; k++) near(list[k].value, right[k], 1e-9);
+  sph_case_compare_free(list, n);
+  end_wave(&w);
+}
+
 static void refused(const char *comparison, const char *part)
 {
   char text[2000];
@@ -379,6 +410,7 @@ int main(void)
       cmocka_unit_test(weights_count),
       cmocka_unit_test(files_are_read_and_scaled),
       cmocka_unit_test(fields_are_compared_at_several_times),
+      cmocka_unit_test(one_fluid_of_several_is_compared),
       cmocka_unit_test(what_cannot_be_compared_is_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
