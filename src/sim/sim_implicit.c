@@ -283,21 +283,27 @@ static int fill(const solving *s, const unknown *u)
 }
 
 /* Pairs exchange: without walls sum M x = sum b, whatever the error of x.  A constant makes it so,
- * and what is conserved is so to rounding. */
+ * and what is conserved is so to rounding.  Rows that are coupled to none keep out of it: M x = b.
+ */
 static void conserve(const solving *s, const unknown *u)
 {
   struct sph_implicit *own = s->own;
-  const double *M = u->matrix->A.floor;
+  const double *M = u->matrix->A.floor, *diagonal = u->matrix->A.diagonal;
   const long n = own->pattern.rows;
   const int d = u->matrix->components;
   for (int c = 0; c < u->components; c++) {
+    const int part = d > 1 ? c : 0;
     double missing = 0, mass = 0;
     for (long row = 0; row < n; row++) {
-      const long at = place(s, u, row, c);
-      missing += own->b[at] - M[row * d] * own->x[at];
-      mass += M[row * d];
+      const long at = place(s, u, row, c), k = row * d + part;
+      if (!(diagonal[k] > M[k])) own->x[at] = own->b[at] / M[k];
+      if (!(diagonal[k] > M[k])) continue;
+      missing += own->b[at] - M[k] * own->x[at];
+      mass += M[k];
     }
-    for (long row = 0; row < n; row++) own->x[place(s, u, row, c)] += missing / mass;
+    for (long row = 0; mass > 0 && row < n; row++)
+      if (diagonal[row * d + part] > M[row * d + part])
+        own->x[place(s, u, row, c)] += missing / mass;
   }
 }
 
