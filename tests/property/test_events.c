@@ -191,9 +191,9 @@ static void of_every_integrator(void **state)
   assert_true(tried > 20);
 }
 
-/* The centre of four particles on a spring swings as X0 cos(omega t), whatever they do to each other:
- * frames between steps, where events are found, have the order of the integrator, up to 4 (cubic
- * polynomials). */
+/* The centre of four particles on a spring swings as X0 cos(omega t), whatever they do to each
+ * other: frames between steps, where events are found, have the order of the integrator, up to 4
+ * (cubic polynomials). */
 static const double X0 = 0.5, omega = 2;
 
 static int off_the_cosine(void *ctx, sph_sim *sim, sph_error *error)
@@ -305,38 +305,6 @@ static void wet_and_dry(void **state)
     sph_sim_free(sim);
     sph_sim_free(plain);
   }
-}
-
-/* A uniform stream through a periodic box: its points stay wet, whatever went by and wherever they
- * are, and have its pressure. */
-static void points_of_periodic_boxes(void **state)
-{
-  (void)state;
-  sph_sim *sim =
-      sph_sim_create(&(sph_sim_def){.dim = 2, .dx = dx, .periodic = {1, 1}, .length = {1, 1}});
-  sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1, 1}, 1000);
-  sph_group_set_eos(water, sph_eos_tait(1000, 10, 7));
-  double *v = sph_group_write(water, "velocity", 0), *rho = sph_group_write(water, "density", 0);
-  for (long i = 0; i < sph_group_count(water); i++) v[i] = 1, rho[i] = 1010;
-  sph_sim_add_term(sim, sph_term_continuity());
-  sph_sim_add_term(sim, sph_term_pressure());
-  for (int k = 0; k < 2; k++)
-    sph_sim_add_event(sim, &(sph_event){.name = k ? "dry" : "wet",
-                                        .type = k ? "dry" : "wet",
-                                        .x = {0.02, 0.98}});
-  for (int k = 0; k < 5; k++) {
-    const sph_monitor at = {.name = "p",
-                            .type = "pressure",
-                            .x = {0.02, 0.98},
-                            .extent = {0.1 * k, 0.1 * k}};
-    double value;
-    good(sim, sph_sim_run(sim, 0.65 * k));
-    good(sim, sph_monitor_value(&at, sim, &value, &(sph_error){0}));
-    assert_near(value, sph_group_read(water, "pressure", 0)[0], 1e-6 * value);
-    assert_true(value > 1000);
-  }
-  assert_int_equal(count_of(sim, 0, NULL, NULL) + count_of(sim, 1, NULL, NULL), 0);
-  sph_sim_free(sim);
 }
 
 /* The front of a dam break, a maximum over particles that change: between the rows of a series of
@@ -721,53 +689,6 @@ static void viscosity_changes(void **state)
   sph_sim_free(sim);
 }
 
-/* ---- rates ---- */
-
-static int drag(const sph_term *term, const sph_particles *s)
-{
-  (void)term;
-  for (long i = 0; i < s->n; i++) s->a[0][i] -= 3 * s->v[0][i];
-  return SPH_OK;
-}
-
-static int nothing(void *ctx, sph_sim *sim)
-{
-  (void)ctx, (void)sim;
-  return SPH_OK;
-}
-
-/* v = V e^(-3t): of two velocities and a density one rate, 3 V e^(-3t), is not zero.  The moment
- * may lie in the first step behind another event's change, at 0.41356 s of steps of 1 ms. */
-static void steady(void **state)
-{
-  (void)state;
-  for (int k = 0; k < 4; k++) {
-    const double V = 1, rate = 0.5, rest = log(3 * V / rate / sqrt(3)) / 3;
-    double first;
-    sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = dx});
-    sph_group *block = sph_group_box(sim, "block", (double[]){0, 1}, (double[]){0.4, 1.4}, 1000);
-    sph_group_set_eos(block, sph_eos_tait(1000, 10, 7));
-    double *v = sph_group_write(block, "velocity", 0);
-    for (long i = 0; i < sph_group_count(block); i++) v[i] = V;
-    sph_sim_add_term(sim, sph_term_continuity());
-    sph_sim_add_term(sim, sph_term_pressure());
-    sph_sim_add_term(sim, (sph_term){.name = "drag", .body = drag});
-    const char *name = k % 2 ? "predictor-corrector" : "erk:zonneveld-5-3-4";
-    sph_sim_set_integrator(sim, &(sph_integrator_def){.method = name, .dt_fixed = 1e-3});
-    sph_sim_add_event(sim,
-                      &(sph_event){.name = "rest", .type = "steady", .threshold = rate, .stop = 1});
-    if (k > 1)
-      sph_sim_add_event(sim, &(sph_event){.name = "cut",
-                                          .type = "time",
-                                          .threshold = rest - 6e-4,
-                                          .change = nothing});
-    good(sim, sph_sim_run(sim, 10));
-    assert_int_equal(count_of(sim, 0, &first, NULL), 1);
-    assert_near(first, rest, 1e-6);
-    sph_sim_free(sim);
-  }
-}
-
 /* ---- failures ---- */
 
 static double fails(void *ctx, sph_sim *sim)
@@ -823,7 +744,6 @@ int main(void)
       cmocka_unit_test(of_every_integrator),
       cmocka_unit_test(dense_output_has_the_order),
       cmocka_unit_test(wet_and_dry),
-      cmocka_unit_test(points_of_periodic_boxes),
       cmocka_unit_test(front_of_a_dam_break),
       cmocka_unit_test(ends_of_steps_count_once),
       cmocka_unit_test(many_in_a_step),
@@ -836,7 +756,6 @@ int main(void)
       cmocka_unit_test(a_change_at_the_end_of_a_step),
       cmocka_unit_test(changes_of_one_moment),
       cmocka_unit_test(viscosity_changes),
-      cmocka_unit_test(steady),
       cmocka_unit_test(failures_end_the_run),
   };
   cmocka_set_message_output(CM_OUTPUT_TAP);
