@@ -67,7 +67,8 @@ SPH_API void sph_sim_set_progress(sph_sim *sim, int (*progress)(void *ctx, sph_s
                                   void *ctx);
 
 /* Warning k = 0, 1, ... about terms and materials that do nothing together, or are missing, as one
- * line in text[size]; 0 behind the last.  All groups and terms should be there. */
+ * line in text[size]; 0 behind the last.  All groups and terms should be there; once it was
+ * evaluated, also about explicit terms that make steps far shorter than sound does. */
 SPH_API int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size);
 
 /* Runs to time t_end [s], writing outputs; or one step.  Returns a status. */

@@ -1,6 +1,8 @@
 /* What a simulation has that does nothing, or lacks that most have: told, not refused. */
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "sim_data.h"
 
@@ -70,6 +72,26 @@ static void find_in_fluid(finder *f, const sph_sim *sim, const sph_group *fluid)
     found(f, "%s has no conductivity beside conduction", fluid->name);
 }
 
+/* Steps that explicit terms make far shorter than sound does. */
+static void find_in_limits(finder *f, const sph_sim *sim)
+{
+  static const struct {
+    int bound;
+    const char *term;
+  } row[] = {{SPH_BOUND_VISCOUS, "viscosity-laminar"},
+             {SPH_BOUND_CONDUCTION, "conduction"},
+             {SPH_BOUND_DRAG, "drag"}};
+  const int stabilised = !strncmp(sph_sim_integrator(sim), "lsrk:", 5);
+  for (size_t k = 0; sim->prepared && !stabilised && k < sizeof row / sizeof *row; k++) {
+    const double ratio = sim->limit[SPH_BOUND_CFL] / sim->limit[row[k].bound];
+    if (ratio > 10 && ratio < INFINITY)
+      found(f,
+            "%s bounds steps to 1/%.0f of h/c: integrator imex:ark324l2sa-4-2-3 takes it "
+            "implicitly",
+            row[k].term, ratio);
+  }
+}
+
 int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size)
 {
   finder f = {k, 0, text, text ? size : 0};
@@ -82,5 +104,6 @@ int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size)
       find_in_dust(&f, sim, sim->group[g]);
     else
       find_in_fluid(&f, sim, sim->group[g]);
+  find_in_limits(&f, sim);
   return f.found > k;
 }

@@ -461,6 +461,37 @@ static void warnings(void **state)
   sph_sim_free(s.sim);
 }
 
+/* Explicit steps, far shorter than sound's: viscous 0.125 h^2 rho/eta = 1/40 of h/c with c = 20 m/s,
+ * of drag t_s/2; told once the limits are known, not of what is implicit. */
+static void warnings_of_steps(void **state)
+{
+  (void)state;
+  static const char *const told[] = {
+      "viscosity-laminar bounds steps to 1/40 of h/c: integrator imex:ark324l2sa-4-2-3 takes it "
+      "implicitly",
+      "drag bounds steps to 1/150 of h/c: integrator imex:ark324l2sa-4-2-3 takes it implicitly"};
+  for (int k = 0; k < 3; k++) {
+    subject s = {.sim = sph_sim_create(
+                     &(sph_sim_def){.dim = 2, .dx = 0.1, .periodic = {1, 1}, .length = {1, 1}})};
+    for (int dust = 0; dust < 2; dust++) {
+      sph_group *group = sph_group_box(s.sim, dust ? "dust" : "water", (double[]){0, 0},
+                                       (double[]){1, 1}, dust ? 1 : 1000);
+      sph_group_set_eos(group, dust ? sph_eos_dust() : sph_eos_tait(1000, 20, 7));
+      if (!dust) sph_group_set_viscosity(group, 0.125 * 0.15 * 1000 * 20 * (k ? 40 : 9));
+    }
+    sph_sim_add_term(s.sim, sph_term_continuity());
+    sph_sim_add_term(s.sim, sph_term_pressure());
+    sph_sim_add_term(s.sim, sph_term_viscosity_laminar("morris"));
+    sph_sim_add_term(s.sim, sph_term_drag(k ? 1e4 : 1));
+    sph_sim_set_integrator(s.sim, &(sph_integrator_def){.method = k == 2 ? "imex:ark324l2sa-4-2-3"
+                                                                         : NULL});
+    warned(s.sim, told, 0);
+    assert_int_equal(sph_sim_evaluate(s.sim), SPH_OK);
+    warned(s.sim, told, k == 1 ? 2 : 0);
+    sph_sim_free(s.sim);
+  }
+}
+
 static void warnings_of_dust(void **state)
 {
   (void)state;
@@ -495,6 +526,7 @@ int main(void)
       cmocka_unit_test(warnings),
       cmocka_unit_test(dust),
       cmocka_unit_test(warnings_of_dust),
+      cmocka_unit_test(warnings_of_steps),
   };
   return cmocka_run_group_tests_name("hostile terms", tests, NULL, NULL);
 }
