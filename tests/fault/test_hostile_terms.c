@@ -461,8 +461,8 @@ static void warnings(void **state)
   sph_sim_free(s.sim);
 }
 
-/* Explicit steps, far shorter than sound's: viscous 0.125 h^2 rho/eta = 1/40 of h/c with c = 20 m/s,
- * of drag t_s/2; told once the limits are known, not of what is implicit. */
+/* Explicit steps, far shorter than sound's: by viscosity 0.125 h^2 rho/eta, 1/40 of h/c here, by
+ * drag t_s/2; told once the limits are known, and not of what is implicit. */
 static void warnings_of_steps(void **state)
 {
   (void)state;

@@ -720,8 +720,7 @@ static void refusals(void **state)
   eos = sph_eos_dust(), eos.dust = 0, refuse(eos, "rho0"); /* else one like any other */
   eos = sph_eos_dust(), eos.thermal = 1, refuse(eos, "thermal = 1");
   eos = sph_eos_dust(), eos.rho0 = 3, refuse(eos, "rho0 = 3");
-  eos = sph_eos_dust(), eos.c0 = 3, refuse(eos, "c0 = 3");
-  eos = sph_eos_dust(), eos.c_v = 3, refuse(eos, "c_v = 3");
+  eos = sph_eos_dust(), eos.c0 = 3, refuse(eos, "c0 = 3"), eos.c_v = 4, refuse(eos, "c_v = 4");
   eos = sph_eos_tait(1000, 40, 7), eos.c_v = -1;
   eos.c_v = NAN, refuse(eos, "c_v"), eos.c_v = INFINITY, refuse(eos, "c_v");
   assert_int_equal(sph_eos_check(NULL, NULL), SPH_ERR_ARGUMENT);
@@ -742,9 +741,9 @@ static void accepted(void **state)
 
 static void dust(void **state)
 {
-  sph_eos eos = sph_eos_dust();
-  double rho[] = {0.1, 1e9}, p[] = {1, 1}, c[] = {1, 1};
   (void)state;
+  sph_eos eos = sph_eos_dust();
+  double rho[] = {0.1, 1e9}, p[2], c[2];
   assert_int_equal(sph_eos_check(&eos, NULL), SPH_OK);
   eos.pressure(&eos, 2, rho, NULL, p, c);
   assert_true(p[0] == 0 && p[1] == 0 && c[0] == 0 && c[1] == 0 && isnan(eos.density(&eos, 0, 0)));
