@@ -121,7 +121,7 @@ int sph_sim_relax_fit(sph_sim *sim)
     const sph_group *group = sim->group[g];
     const char *energy = sph_group_energy(group);
     int field = sph_group_data_energy(group);
-    if (group->wall) continue;
+    if (group->wall || group->eos.dust) continue;
     if (field == SPH_ENTROPY || field == SPH_TEMPERATURE)
       return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                           "relax energy: %s integrates %s; right is u or total "

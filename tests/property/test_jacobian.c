@@ -74,6 +74,7 @@ static const scene_def defs[] = {
     {.dim = 2, .n = 14, .walls = 1, .random = 1},
     {.dim = 2, .n = 16, .thermal = 1, .fluids = 2, .laminar = 1},
     {.dim = 3, .n = 5, .fluids = 2},
+    {.dim = 2, .n = 12, .thermal = 1, .dusts = 2, .periodic = {1}},
 };
 enum { DEFS = sizeof defs / sizeof *defs };
 
@@ -87,6 +88,7 @@ static sph_sim *simulation(scene *s, int k)
   if (def.laminar) s->o.laminar = ORACLE_MORRIS;
   if (!def.thermal) s->o.diffusion = ORACLE_ANTUONO, s->o.delta = 0.1;
   if (k == 3) s->o.summed = 1, s->o.diffusion = ORACLE_OFF, s->o.epsilon = 0.3;
+  if (def.dusts) s->o.drag = 1, s->o.drag_rate = 0.5;
   if (k == 4) s->o.conduction = 1, s->o.energy = ORACLE_TOTAL;
   sph_sim *sim = scene_sim(s, (scene_options){.threads = 1});
   if (!sph_sim_vector(sim)) fail_msg("%s", sph_sim_error(sim));

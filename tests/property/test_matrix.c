@@ -30,9 +30,23 @@ static const variant variants[] = {
     {"artificial", SPH_ARTIFICIAL, SPH_COUPLING_VISCOSITY, 1},
     {"morris and artificial", SPH_MORRIS | SPH_ARTIFICIAL, SPH_COUPLING_VISCOSITY, 1},
     {"mcg and artificial", SPH_MCG | SPH_ARTIFICIAL, SPH_COUPLING_VISCOSITY, 1},
+    {"drag", SPH_DRAG, SPH_COUPLING_VISCOSITY, 1},
+    {"drag and mcg", SPH_DRAG | SPH_MCG, SPH_COUPLING_VISCOSITY, 1},
     {"conduction", SPH_CONDUCTION, SPH_COUPLING_CONDUCTION, 0},
 };
 enum { VARIANTS = sizeof variants / sizeof *variants };
+
+/* Between the particles of both fluids. */
+static void add_dust(sph_sim *sim, int dim)
+{
+  sph_group *dust = sph_group_box(sim, "dust", (double[]){0, 0, 0}, (double[]){1, 1, 1}, 300);
+  sph_group_jitter(dust, 0.4, 5);
+  sph_group_set_eos(dust, sph_eos_dust());
+  for (long i = 0; i < sph_group_count(dust); i++)
+    for (int d = 0; d < dim; d++)
+      sph_group_write(dust, "velocity", d)[i] = cos(2.0 + (double)(i * (d + 3)));
+  sph_sim_add_term(sim, sph_term_drag_time(0.1));
+}
 
 /* Two fluids of other density and viscosity side by side, periodic. */
 static sph_sim *make(int dim, const variant *v)
@@ -61,6 +75,7 @@ static sph_sim *make(int dim, const variant *v)
     sph_sim_add_term(sim, sph_term_viscosity_laminar(v->bits & SPH_MCG ? "mcg" : "morris"));
   if (v->bits & SPH_ARTIFICIAL) sph_sim_add_term(sim, sph_term_viscosity_artificial(0.5, 2));
   if (v->bits & SPH_CONDUCTION) sph_sim_add_term(sim, sph_term_conduction());
+  if (v->bits & SPH_DRAG) add_dust(sim, dim);
   return sim;
 }
 
