@@ -244,6 +244,32 @@ static void near_1_on_lattices(void **state)
   }
 }
 
+/* Twice the coefficient is twice the drag, from the next evaluation on; so is half a stopping time,
+ * of which K = rho_dust/t_s is the same to begin with. */
+static void coefficients_may_change(void **state)
+{
+  (void)state;
+  scene s;
+  scene_def def = {.dim = 2, .n = 12, .dusts = 1, .periodic = {1, 1}, .seed = 3};
+  scene_make(&s, &def);
+  for (long i = 0; i < s.o.n; i++)
+    if (is_dust(&s, i)) s.o.particle[i].rho = 512;
+  s.o.drag = 1, s.o.drag_K = 128;
+  sph_sim *sim = scene_sim(&s, (scene_options){0});
+  scene_rates was = scene_evaluate(&s, sim);
+  const double limit = sim->limit[SPH_BOUND_DRAG];
+  for (int k = 0; k < 2; k++) {
+    sph_sim_change_term(sim, k ? sph_term_drag_time(2) : sph_term_drag(256));
+    scene_rates now = scene_evaluate(&s, sim);
+    assert_true(sim->limit[SPH_BOUND_DRAG] == limit / 2);
+    for (long i = 0; i < s.o.n; i++) assert_true(now.a[0][i] == 2 * was.a[0][i]);
+    scene_rates_free(&now);
+  }
+  scene_rates_free(&was);
+  sph_sim_free(sim);
+  scene_free(&s);
+}
+
 /* ---- what else acts on dust ---- */
 
 /* Body forces, and nothing else: not the pressure and viscosity of the fluid, not walls, not
@@ -285,6 +311,7 @@ int main(void)
       cmocka_unit_test(the_same),
       cmocka_unit_test(step_limit),
       cmocka_unit_test(exact_on_a_line),
+      cmocka_unit_test(coefficients_may_change),
       cmocka_unit_test(near_1_on_lattices),
       cmocka_unit_test(free_flight),
   };

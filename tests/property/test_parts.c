@@ -25,6 +25,7 @@ static const char *const terms[] = {"continuity",
                                     "conduction",
                                     "xsph",
                                     "delta",
+                                    "drag",
                                     "gravity",
                                     "harmonic",
                                     "dye",
@@ -70,6 +71,7 @@ static void any_scene(scene *s, scene_def *def, int k)
                      .laminar = 1,
                      .walls = k / 3 % 3,
                      .no_slip = k % 5 != 4,
+                     .dusts = k % 6 == 5,
                      .random = k / 6 % 2,
                      .seed = (unsigned long)(700 + k)};
   def->n = def->dim == 1 ? 40 : def->dim == 2 ? 14 : 9;
@@ -83,6 +85,7 @@ static void any_scene(scene *s, scene_def *def, int k)
   o->laminar = k % 2 ? ORACLE_MORRIS : ORACLE_MCG;
   o->conduction = 1;
   o->epsilon = k % 3 == 0 ? 0.4L : 0;
+  o->drag = def->dusts, o->drag_K = 300;
   if (def->thermal) o->conductivity = 1, o->energy = (enum oracle_energy)(k / 4 % 5);
   if (!def->thermal) {
     o->energy = k % 2 ? ORACLE_U : ORACLE_TEMPERATURE;
@@ -107,6 +110,7 @@ static int has(const oracle *o, int term)
                             o->conduction > 0,
                             o->epsilon > 0,
                             o->diffusion > 0,
+                            o->drag,
                             1,
                             o->omega > 0,
                             1,
@@ -133,7 +137,8 @@ static void deal(sph_sim *sim, const oracle *o, unsigned long seed)
   static const char *const names[] = {"explicit", "slow", "fast", "implicit"};
   for (int k = 0; k < TERMS; k++) {
     int may = !strcmp(terms[k], "viscosity-artificial") || !strcmp(terms[k], "viscosity-laminar") ||
-              !strcmp(terms[k], "conduction") || !strcmp(terms[k], "delta");
+              !strcmp(terms[k], "conduction") || !strcmp(terms[k], "delta") ||
+              !strcmp(terms[k], "drag");
     if (has(o, k))
       sph_sim_set_part(sim, terms[k], names[(int)(scene_random(&seed) * (may ? 4 : 3))]);
   }
@@ -385,10 +390,8 @@ static void names_are_copied(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(parts_add_up),
-      cmocka_unit_test(local_parts_are_cheap),
-      cmocka_unit_test(limits_of_parts),
-      cmocka_unit_test(wrong_parts),
+      cmocka_unit_test(parts_add_up),     cmocka_unit_test(local_parts_are_cheap),
+      cmocka_unit_test(limits_of_parts),  cmocka_unit_test(wrong_parts),
       cmocka_unit_test(names_are_copied),
   };
   return cmocka_run_group_tests_name("parts", tests, NULL, NULL);
