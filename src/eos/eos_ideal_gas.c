@@ -43,7 +43,7 @@ sph_eos sph_eos_ideal_gas(double gamma)
                    .thermal = 1,
                    .pressure = pressure,
                    .density = density,
-                   .slopes = sph_eos_stiffened_slopes,
+                   .slopes = sph_eos_stiffened_gas_slopes,
                    .energy_at = energy_at,
                    .thermal_pressure = thermal_pressure};
 }

@@ -39,7 +39,7 @@ sph_eos sph_eos_isothermal(double rho0, double c0)
                    .p_min = -INFINITY,
                    .pressure = pressure,
                    .density = density,
-                   .slopes = sph_eos_power_slopes,
+                   .slopes = sph_eos_slopes_power,
                    .elastic_energy = elastic_energy};
 }
 

@@ -42,7 +42,7 @@ sph_eos sph_eos_linear(double rho0, double c0, double p_min)
                    .p_min = p_min,
                    .pressure = pressure,
                    .density = density,
-                   .slopes = sph_eos_power_slopes,
+                   .slopes = sph_eos_slopes_power,
                    .elastic_energy = elastic_energy};
 }
 

@@ -49,7 +49,7 @@ sph_eos sph_eos_polytropic(double rho0, double K, double gamma)
                    .p_min = -INFINITY,
                    .pressure = pressure,
                    .density = density,
-                   .slopes = sph_eos_power_slopes,
+                   .slopes = sph_eos_slopes_power,
                    .elastic_energy = elastic_energy};
 }
 

@@ -55,7 +55,7 @@ void sph_eos_slopes(const sph_eos *eos, long n, const double *rho, const double 
 }
 
 /* Barotropic: dp/drho = c^2, also on the cut, where c = 0; c ~ rho^((gamma-1)/2). */
-void sph_eos_power_slopes(const sph_eos *eos, long n, const double *rho, const double *u,
+void sph_eos_slopes_power(const sph_eos *eos, long n, const double *rho, const double *u,
                           double *p_rho, double *p_u, double *c_rho, double *c_u)
 {
   eos->pressure(eos, n, rho, u, p_u, c_u); /* c, for the moment */
@@ -83,7 +83,7 @@ static void slopes_of(function *f, const sph_eos *eos, double rho, double y, dou
   }
 }
 
-void sph_eos_temperature_slopes(const sph_eos *eos, long n, const double *rho, const double *u,
+void sph_eos_slopes_temperature(const sph_eos *eos, long n, const double *rho, const double *u,
                                 double *T_rho, double *T_u)
 {
   for (long i = 0; i < n; i++) {
@@ -97,7 +97,7 @@ void sph_eos_temperature_slopes(const sph_eos *eos, long n, const double *rho, c
   }
 }
 
-void sph_eos_thermal_pressure_slopes(const sph_eos *eos, long n, const double *rho, const double *T,
+void sph_eos_slopes_thermal_pressure(const sph_eos *eos, long n, const double *rho, const double *T,
                                      double *pT_rho, double *pT_T)
 {
   for (long i = 0; i < n; i++)

@@ -33,8 +33,8 @@ static double energy_at(const sph_eos *eos, double rho, double p)
   return (p + eos->gamma * eos->p_inf) / ((eos->gamma - 1) * rho) + eos->q;
 }
 
-void sph_eos_stiffened_slopes(const sph_eos *eos, long n, const double *rho, const double *u,
-                              double *p_rho, double *p_u, double *c_rho, double *c_u)
+void sph_eos_stiffened_gas_slopes(const sph_eos *eos, long n, const double *rho, const double *u,
+                                  double *p_rho, double *p_u, double *c_rho, double *c_u)
 {
   const double g1 = eos->gamma - 1;
   for (long i = 0; i < n; i++) {
@@ -75,7 +75,7 @@ sph_eos sph_eos_stiffened_gas(double rho0, double gamma, double p_inf, double q)
                    .thermal = 1,
                    .pressure = pressure,
                    .density = density,
-                   .slopes = sph_eos_stiffened_slopes,
+                   .slopes = sph_eos_stiffened_gas_slopes,
                    .energy_at = energy_at,
                    .temperature = temperature,
                    .energy = energy,

@@ -33,17 +33,17 @@ long sph_eos_find_bad(const sph_eos *eos, long n, const double *rho, const doubl
 /* Of p - p_b = (rho0 c0^2/gamma) [(rho/rho0)^gamma - 1], gamma >= 1 (the linear one: 1). */
 double sph_eos_power_density(const sph_eos *eos, double gamma, double p);          /* [kg/m^3] */
 double sph_eos_power_elastic_energy(const sph_eos *eos, double gamma, double rho); /* [J/kg] */
-void sph_eos_power_slopes(const sph_eos *eos, long n, const double *rho, const double *u,
+void sph_eos_slopes_power(const sph_eos *eos, long n, const double *rho, const double *u,
                           double *p_rho, double *p_u, double *c_rho, double *c_u);
 /* Of p = (gamma - 1) rho (u - q) - gamma p_inf, c^2 = gamma (p + p_inf)/rho. */
-void sph_eos_stiffened_slopes(const sph_eos *eos, long n, const double *rho, const double *u,
-                              double *p_rho, double *p_u, double *c_rho, double *c_u);
+void sph_eos_stiffened_gas_slopes(const sph_eos *eos, long n, const double *rho, const double *u,
+                                  double *p_rho, double *p_u, double *c_rho, double *c_u);
 
 /* Derivatives of T with respect to rho and u (0 without a temperature), and of T (dp/dT)_rho with
  * respect to rho and T. */
-void sph_eos_temperature_slopes(const sph_eos *eos, long n, const double *rho, const double *u,
+void sph_eos_slopes_temperature(const sph_eos *eos, long n, const double *rho, const double *u,
                                 double *T_rho, double *T_u);
-void sph_eos_thermal_pressure_slopes(const sph_eos *eos, long n, const double *rho, const double *T,
+void sph_eos_slopes_thermal_pressure(const sph_eos *eos, long n, const double *rho, const double *T,
                                      double *pT_rho, double *pT_T);
 
 #endif

@@ -12,7 +12,7 @@
 
 static const sph_linear_method *const table[] = {&sph_linear_auto,
                                                  &sph_linear_pcg_jacobi,
-                                                 &sph_linear_pcg_ic0,
+                                                 &sph_linear_ic0,
                                                  &sph_linear_cholmod_supernodal,
                                                  &sph_linear_cholmod_simplicial,
                                                  &sph_linear_klu};

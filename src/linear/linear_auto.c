@@ -26,8 +26,8 @@ static const double ALIKE = 0.1;  /* difference of rows up to which fill is know
 
 enum { JACOBI, IC0, CHOLESKY, METHODS };
 
-static const sph_linear_method *const method[METHODS] = {&sph_linear_pcg_jacobi,
-                                                         &sph_linear_pcg_ic0, &sph_linear_cholmod};
+static const sph_linear_method *const method[METHODS] = {&sph_linear_pcg_jacobi, &sph_linear_ic0,
+                                                         &sph_linear_cholmod};
 
 typedef struct choice {
   sph_linear *with[METHODS];      /* made when first needed */

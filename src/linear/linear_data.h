@@ -27,7 +27,7 @@ typedef struct sph_linear_method {
   void (*free)(sph_linear *solver); /* own may be NULL */
 } sph_linear_method;
 
-extern const sph_linear_method sph_linear_pcg_jacobi, sph_linear_pcg_ic0;
+extern const sph_linear_method sph_linear_pcg_jacobi, sph_linear_ic0;
 extern const sph_linear_method sph_linear_cholmod_supernodal, sph_linear_cholmod_simplicial;
 extern const sph_linear_method sph_linear_klu, sph_linear_auto;
 

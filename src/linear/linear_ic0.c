@@ -169,5 +169,5 @@ static void done(sph_linear *solver)
   sph_memory_free(s);
 }
 
-const sph_linear_method sph_linear_pcg_ic0 = {
+const sph_linear_method sph_linear_ic0 = {
     .name = "pcg-ic0", .create = create, .prepare = prepare, .solve = solve, .free = done};

@@ -43,7 +43,11 @@ static const struct {
 };
 enum { EOS_NUMBERS = sizeof eos_numbers / sizeof *eos_numbers };
 
-static double *number_of(sph_eos *eos, size_t offset) { return (double *)((char *)eos + offset); }
+static double *number_of(void *at, size_t offset)
+{
+  void *number = (char *)at + offset;
+  return number;
+}
 
 static int same_eos(const sph_eos *a, const sph_eos *b)
 {
@@ -105,7 +109,7 @@ static void look(search *s)
   sph_sim *sim = s->sim;
   if (offer(s, &sim->h, 0, "%s%s", "h", "")) s->found->is_h = 1;
   for (int k = 0; k < TERM_NUMBERS; k++) {
-    double *value = (double *)((char *)&sim->terms + term_numbers[k].offset);
+    double *value = number_of(&sim->terms, term_numbers[k].offset);
     int there = term_numbers[k].bits ? (sim->loop_terms & term_numbers[k].bits) != 0
                                      : sim->part[SPH_WHOLE].gravity;
     if (term_numbers[k].bits == SPH_DRAG && *value == 0) continue; /* it is the other one */

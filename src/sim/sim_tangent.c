@@ -160,7 +160,7 @@ static void slopes(sph_tangent *t, int g)
     sph_eos_slopes(&group->eos, some, view->rho + i, group->eos.thermal ? view->u + i : NULL,
                    own->p_rho + i, own->p_u + i, own->c_rho + i, own->c_u + i);
     if (view->u && group->eos.c_v > 0)
-      sph_eos_temperature_slopes(&group->eos, some, view->rho + i, view->u + i, own->T_rho + i,
+      sph_eos_slopes_temperature(&group->eos, some, view->rho + i, view->u + i, own->T_rho + i,
                                  own->T_u + i);
   }
 }

@@ -44,15 +44,23 @@ double sph_sim_tangent_call_number(sph_tangent *t, const double *number)
   return slope;
 }
 
+/* [SPH_FLUID_NUMBERS] */
+static double *numbers_of(fluid_constants *k)
+{
+  void *numbers = (char *)k + offsetof(fluid_constants, inverse_h);
+  return numbers;
+}
+
 fluid_constants sph_sim_tangent_call_constants(sph_tangent *t, int pass, int target, int source)
 {
   const double value = theta_value(t), step = theta_step(t);
   fluid_constants slope = {0};
+  double *sum = numbers_of(&slope);
   for (int k = 0; t->theta && k < POINTS; k++) {
     set_theta(t, value, at[k] * step);
-    const fluid_constants there = sph_sim_tangent_constants(t, pass, target, source);
-    for (int n = 0; n < SPH_FLUID_NUMBERS; n++)
-      (&slope.inverse_h)[n] += weight[k] / step * (&there.inverse_h)[n];
+    fluid_constants there = sph_sim_tangent_constants(t, pass, target, source);
+    const double *number = numbers_of(&there);
+    for (int n = 0; n < SPH_FLUID_NUMBERS; n++) sum[n] += weight[k] / step * number[n];
   }
   set_theta(t, value, 0);
   return slope;
@@ -164,6 +172,12 @@ static double size_of(const sph_tangent *t)
   return most;
 }
 
+static const double *member_of(const sph_point *point, size_t offset)
+{
+  const void *member = (const char *)point + offset;
+  return member;
+}
+
 /* The view of group g, moved by `by` times its changes; rates go to beside_rate. */
 static sph_view moved(const sph_tangent *t, int g, double by)
 {
@@ -176,7 +190,7 @@ static sph_view moved(const sph_tangent *t, int g, double by)
     for (int c = 0; c < fields[f].count; c++) {
       if (!array[c]) continue;
       for (long i = 0; i < view.n; i++)
-        to[i] = array[c][i] + by * ((const double *)((const char *)&point[i] + fields[f].point))[c];
+        to[i] = array[c][i] + by * member_of(&point[i], fields[f].point)[c];
       array[c] = to;
       to += capacity;
     }

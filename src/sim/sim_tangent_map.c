@@ -181,7 +181,7 @@ static double energy_rate(const sph_local *k, const sph_point *d, const double d
     if (!eos->thermal) return heat / eos->c_v;
     double pT, pT_rho, pT_T;
     sph_eos_thermal_pressure(eos, 1, &rho, &view->energy[i], &pT);
-    sph_eos_thermal_pressure_slopes(eos, 1, &rho, &view->energy[i], &pT_rho, &pT_T);
+    sph_eos_slopes_thermal_pressure(eos, 1, &rho, &view->energy[i], &pT_rho, &pT_T);
     return (heat + pT * dwork + (pT_rho * d->rho + pT_T * d->energy) * work) / eos->c_v;
   default: return rate;
   }

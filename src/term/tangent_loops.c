@@ -16,8 +16,10 @@ typedef struct constants {
 BODY constants constants_of(const sph_tangent_task *t)
 {
   constants k = {.fluid.terms = t->terms, .kernel = t->kernel};
+  void *numbers = (char *)&k.fluid + offsetof(fluid_constants, inverse_h);
+  vec_scalar *number = numbers;
   for (int n = 0; n < SPH_FLUID_NUMBERS; n++)
-    (&k.fluid.inverse_h)[n] = tangent_number(t->numbers[n], t->numbers_d[n]);
+    number[n] = tangent_number(t->numbers[n], t->numbers_d[n]);
   return k;
 }
 
