@@ -1,9 +1,10 @@
 /* 10_events -- dense output, and events: moments that nobody has to step to.
  *
- * Equations  a drop swings on a spring, dv/dt = ... - Omega^2 x: whatever happens inside, its centre
- *            moves as X(t) = X0 cos(Omega t), V = -X0 Omega sin(Omega t).  An event is a moment at
- *            which a function g(t, y) passes zero; it is found in the dense output of a step,
- *            a polynomial through the states and rates at its ends, and no step is shortened
+ * Equations  a drop swings on a spring, dv/dt = ... - Omega^2 x: whatever happens inside, its
+ *            centre moves as X(t) = X0 cos(Omega t), V = -X0 Omega sin(Omega t).  An event is a
+ *            moment at which a function g(t, y) passes zero; it is found in the dense output of
+ *            a step, a polynomial through the states and rates at its ends, and no step is
+ *            shortened
  * Reference  R. P. Brent (1973), Algorithms for Minimization without Derivatives
  * Run        ./10_events [particles across the drop]
  * See        the times at which the centre passes x = 0; the frames at times of their own between

@@ -43,9 +43,13 @@ SPH_API int sph_sim_rhs_fast(double t, N_Vector y, N_Vector ydot, void *sim);
 /* Solves z = known + gamma f_implicit(t, z), gamma > 0, a stage of a scheme of your own: linear
  * systems with the matrices of the implicit terms, at the positions that `known` has.  z comes as
  * a guess; tolerance: of the error of z in the norm of sph_sim_weights.  0, > 0 where no solution
- * was found (try a smaller step), < 0 after a failure. */
+ * was found or a number of `known` or z is not finite (try a smaller step), < 0 after a failure. */
 SPH_API int sph_sim_solve(sph_sim *sim, double t, double gamma, double tolerance, N_Vector known,
                           N_Vector z);
+
+/* Why the last of these calls that returned > 0 did so, "12 particles ..."; "" where none has since
+ * the last step of the simulation's own.  Lives until the next call. */
+SPH_API const char *sph_sim_retry_reason(const sph_sim *sim);
 
 /* Error weights 1/(tolerance scale) of every entry at tolerance 1: an ARKEwtFn and CVEwtFn. */
 SPH_API int sph_sim_weights(N_Vector y, N_Vector weight, void *sim);

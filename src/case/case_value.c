@@ -68,6 +68,13 @@ static double scaling(const double power[SPH_CASE_BASES], const double scale[SPH
   return s;
 }
 
+/* The numerator of a unit that has none, as in 0.2 1/s; its characters. */
+static size_t unit_one(const char *text)
+{
+  const size_t n = text[0] == '1' ? 1 + strspn(text + 1, " \t") : 0;
+  return n && text[n] == '/' ? n : 0;
+}
+
 /* The number at text[k], with the unit behind it; the characters taken, 0: a problem. */
 static size_t number(formula *f, size_t k, const double scale[SPH_CASE_BASES])
 {
@@ -76,8 +83,10 @@ static size_t number(formula *f, size_t k, const double scale[SPH_CASE_BASES])
   double v = strtod(start, &end);
   size_t digits = (size_t)(end - start), gap = strspn(end, " \t");
   sph_case_unit unit;
-  size_t taken = sph_case_unit_parse(end + gap, is_name, f, &unit);
+  const size_t one = gap ? unit_one(end + gap) : 0;
+  size_t taken = sph_case_unit_parse(end + gap + one, is_name, f, &unit);
   if (taken) {
+    taken += one;
     snprintf(piece, sizeof piece, "(%.17g*%.17g)", v, unit.factor * scaling(unit.power, scale));
     return put(f, k, piece, strlen(piece)) ? 0 : digits + gap + taken;
   }
@@ -89,6 +98,10 @@ static size_t number(formula *f, size_t k, const double scale[SPH_CASE_BASES])
         "'%.*s' is not a unit; known are kg, m, s, K, mol, N, Pa, J, W with their multiples as mm, "
         "kPa, and products as m/s^2; a product with a name needs *",
         (int)(n < 40 ? n : 40), end + gap);
+    return 0;
+  }
+  if (gap && isdigit((unsigned char)end[gap])) {
+    problem(f, k + digits + gap, "a number behind a number; a unit without a numerator is 1/s");
     return 0;
   }
   snprintf(piece, sizeof piece, "(%.17g)", v);

@@ -405,14 +405,18 @@ int sph_sim_solve(sph_sim *sim, double t, double gamma, double tolerance, N_Vect
 {
   int status = sph_sim_prepare(sim);
   if (status) return status;
-  if (!known || !z || known == z || !(gamma > 0 && tolerance > 0))
+  const int numbers = gamma > 0 && tolerance > 0 && isfinite(t + gamma + tolerance);
+  if (!known || !z || known == z || !numbers)
     return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
-                        "sph_sim_solve: gamma = %g s, tolerance = %g, known %s, z %s; right is "
-                        "> 0, > 0, two vectors",
-                        gamma, tolerance, known ? "given" : "NULL",
+                        "sph_sim_solve: t = %g s, gamma = %g s, tolerance = %g, known %s, z %s; "
+                        "right is finite, > 0, > 0, two vectors",
+                        t, gamma, tolerance, known ? "given" : "NULL",
                         !z           ? "NULL"
                         : known == z ? "the same"
                                      : "given");
+  if (!isfinite(N_VL1Norm(known)) || !isfinite(N_VL1Norm(z)))
+    return sph_sim_admit_retry(sim, "sph_sim_solve: a number of %s is not finite",
+                               isfinite(N_VL1Norm(known)) ? "z" : "known");
   if (!sim->implicit) { /* f_implicit = 0 */
     N_VScale(1, known, z);
     return SPH_OK;
@@ -420,5 +424,7 @@ int sph_sim_solve(sph_sim *sim, double t, double gamma, double tolerance, N_Vect
   sph_stage stage = {.t = t, .gamma = gamma, .tolerance = tolerance, .known = known, .z = z};
   return sph_sim_implicit_solve(&stage, sim);
 }
+
+const char *sph_sim_retry_reason(const sph_sim *sim) { return sim ? sim->retry : ""; }
 
 N_Vector sph_sim_vector(sph_sim *sim) { return sph_sim_prepare(sim) == SPH_OK ? sim->y : NULL; }

@@ -43,6 +43,7 @@ enum { DENSITY, VELOCITY, ENERGY, UNKNOWNS };
 /* What one of them is solved with. */
 typedef struct unknown {
   int there, number;    /* terms of it are implicit; DENSITY, ... */
+  int drags;            /* by drag, too: then dust takes part */
   int components;       /* columns of the scalar matrix; dim with the vector matrix, too */
   int direct;           /* f is linear: what the matrix has, what walls add, and the heating */
   int meets_walls;      /* walls add to it */
@@ -76,10 +77,10 @@ typedef struct solving {
 
 /* ---- rows ---- */
 
-/* Dust has a velocity only that others act on. */
+/* Of dust, only drag acts on the velocity. */
 static int takes_part(const sph_group *group, const unknown *u)
 {
-  return !group->wall && (!group->eos.dust || u->number == VELOCITY);
+  return !group->wall && (!group->eos.dust || u->drags);
 }
 
 static double *field_of(const sph_view *view, const unknown *u, int c)
@@ -222,7 +223,7 @@ static void rows(const solving *s, const unknown *u, each_row *each)
   }
 }
 
-/* Of other groups: 1 x = 0. */
+/* Of other groups: 1 x = 0, of no weight. */
 static void idle_rows(const solving *s, const unknown *u)
 {
   struct sph_implicit *own = s->own;
@@ -230,11 +231,26 @@ static void idle_rows(const solving *s, const unknown *u)
     const long base = own->pattern.base[g];
     if (s->sim->group[g]->wall || takes_part(s->sim->group[g], u)) continue;
     for (long row = base; row < base + s->z[g].n; row++) {
-      own->x[row] = own->old[row] = own->b[row] = 0;
-      own->weight[row] = u->matrix->A.floor[row] = 1;
+      for (int c = 0; c < u->matrix->components; c++)
+        u->matrix->A.floor[row * u->matrix->components + c] = 1;
+      for (int c = 0; c < u->components; c++) {
+        const long at = place(s, u, row, c);
+        own->x[at] = own->old[at] = own->b[at] = own->weight[at] = 0;
+      }
     }
   }
 }
+
+/* Rows of those that take part: means are over them. */
+static double active_rows(const solving *s, const unknown *u)
+{
+  long sum = 0;
+  for (int g = 0; g < s->sim->groups; g++)
+    if (takes_part(s->sim->group[g], u)) sum += s->z[g].n;
+  return (double)sum;
+}
+
+static double mean(double squares, double count) { return count > 0 ? sqrt(squares / count) : 0; }
 
 /* Weighted mean of the change of the unknown. */
 static double change_of(const solving *s, const unknown *u)
@@ -246,7 +262,7 @@ static double change_of(const solving *s, const unknown *u)
     double change = own->weight[k] * (own->x[k] - own->old[k]);
     sum += change * change;
   }
-  return n ? sqrt(sum / (double)n) : 0;
+  return mean(sum, active_rows(s, u) * u->components);
 }
 
 /* ---- one unknown ---- */
@@ -307,6 +323,13 @@ static void conserve(const solving *s, const unknown *u)
   }
 }
 
+/* The solver's mean is over all rows. */
+static double linear_tolerance(const solving *s, const unknown *u)
+{
+  return 0.3 * s->stage->tolerance *
+         sqrt(fmax(active_rows(s, u), 1) / (double)s->own->pattern.rows);
+}
+
 static int solve_linear(const solving *s, const unknown *u)
 {
   struct sph_implicit *own = s->own;
@@ -325,7 +348,7 @@ static int solve_linear(const solving *s, const unknown *u)
                           .b = b,
                           .x = x,
                           .weight = weight,
-                          .tolerance = 0.3 * s->stage->tolerance};
+                          .tolerance = linear_tolerance(s, u)};
   int status = sph_linear_solve(u->solver, &task, &s->sim->error);
   sph_linear_stats stats;
   sph_linear_get_stats(u->solver, &stats);
@@ -352,7 +375,7 @@ static double missed(const solving *s, const unknown *u)
       sum += change * change;
     }
   }
-  return own->pattern.rows ? sqrt(sum / (double)own->pattern.rows) : 0;
+  return mean(sum, active_rows(s, u));
 }
 
 /* Is the iterate near enough, after changes that shrink like these? */
@@ -420,7 +443,7 @@ static double turn(const solving *s)
       *last = energy;
     }
   }
-  return sqrt(sum / (double)own->pattern.rows);
+  return mean(sum, active_rows(s, u));
 }
 
 static int solve_all(const solving *s)
@@ -446,11 +469,12 @@ static void start(const solving *s, int g, long i)
 {
   const sph_view *z = &s->z[g], *known = &s->known[g];
   const unknown *u = s->own->unknown;
+  const sph_group *group = s->sim->group[g];
   for (int d = 0; d < s->sim->dim; d++) {
     z->x[d][i] = known->x[d][i];
-    if (!u[VELOCITY].there) z->v[d][i] = known->v[d][i];
+    if (!u[VELOCITY].there || !takes_part(group, &u[VELOCITY])) z->v[d][i] = known->v[d][i];
   }
-  if (!u[DENSITY].there || s->sim->group[g]->eos.dust) z->rho[i] = known->rho[i];
+  if (!u[DENSITY].there || !takes_part(group, &u[DENSITY])) z->rho[i] = known->rho[i];
   if (z->energy) z->energy[i] = known->energy[i];
   for (int q = 0; q < s->sim->terms.scalars; q++) z->s[q][i] = known->s[q][i];
 }
@@ -507,6 +531,7 @@ static int make_unknown(sph_sim *sim, int number, unsigned bits, int coupling)
   *u = (unknown){.number = number, .there = bits != 0, .coupling = coupling};
   if (!bits) return SPH_OK;
   u->components = number == VELOCITY ? sim->dim : 1;
+  u->drags = (bits & SPH_DRAG) != 0;
   u->direct = number != DENSITY && !(bits & SPH_ARTIFICIAL);
   u->matrix = vector ? &own->vector : &own->scalar;
   u->matrix->vector = vector;

@@ -151,14 +151,27 @@ static int make_columns(sph_sim *sim, sph_pattern *pattern)
   return SPH_OK;
 }
 
+/* Records hold the positions of the last list build: from there none of a pair moves by more than
+ * skin/2, wherever it is now. */
+static void pack_built(const sph_evaluation *e)
+{
+  sph_evaluation built = *e;
+  for (int g = 0; g < e->sim->groups; g++) {
+    for (int d = 0; d < e->sim->dim; d++) built.view[g].x[d] = e->sim->sorted[g].built[d];
+    sph_sim_pairs_pack_positions(&built, g);
+  }
+}
+
 int sph_sim_matrix_pattern(sph_evaluation *e, sph_pattern *pattern)
 {
   sph_sim *sim = e->sim;
   if (pattern->number && pattern->builds == sim->list_builds) return SPH_OK;
   int status = reserve_pattern(sim, pattern);
+  if (!status) pack_built(e);
   for (int g = 0; !status && g < sim->groups; g++)
     for (int s = 0; !status && s < sim->groups; s++)
       if (!sim->group[g]->wall && !sim->group[s]->wall) status = make_masks(e, pattern, g, s);
+  for (int g = 0; g < sim->groups; g++) sph_sim_pairs_pack_positions(e, g);
   if (!status) status = make_columns(sim, pattern);
   if (status) return status;
   pattern->builds = sim->list_builds;

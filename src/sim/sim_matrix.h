@@ -41,7 +41,8 @@ typedef struct sph_matrix {
   long pattern, values;               /* of the pattern that A has; rises whenever A is filled */
 } sph_matrix;
 
-/* Makes the pattern that of the present lists, if it is not; records hold positions. */
+/* Makes the pattern that of the present lists, if it is not; records hold positions, and do so
+ * after it. */
 int sph_sim_matrix_pattern(sph_evaluation *e, sph_pattern *pattern);
 /* Gives a matrix that pattern; then A.floor has room. */
 int sph_sim_matrix_shape(sph_sim *sim, const sph_pattern *pattern, sph_matrix *matrix);

@@ -174,7 +174,7 @@ int sph_sim_run_step(sph_sim *sim, double t_stop, int framed)
   if (!status) status = look_back(sim, framed, &cut);
   if (!status && framed) status = frames_of_steps(sim);
   if (!status && cut) status = sph_sim_event_act(sim);
-  if (!status && !sim->stopped_by) status = sph_sim_modifier_run(sim);
+  if (!status) status = sph_sim_modifier_run(sim);
   return status;
 }
 

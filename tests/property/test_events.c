@@ -153,7 +153,7 @@ static void moments_are_exact(void **state)
 }
 
 /* Every integrator there is, of order two and more, finds a moment, stops there, and goes on.  The
- * dense output of ARKODE's tables of order two is linear in a step: g dt^2/8 beside the parabola. */
+ * dense output of ARKODE's tables of order two is linear in a step: g dt^2/8 off the parabola. */
 static void of_every_integrator(void **state)
 {
   (void)state;

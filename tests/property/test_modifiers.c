@@ -172,7 +172,7 @@ static void frames_come_first(void **state)
 static double level(void *ctx, sph_sim *sim) { return q_of(sim) - *(const double *)ctx; }
 
 /* A modifier that carries q over the threshold: found where it happened, once; also by an event
- * that stops there. */
+ * that stops there: the step that is cut to nothing is one, so that the next fifth ends at 9 dt. */
 static void events_see_what_modifiers_do(void **state)
 {
   (void)state;
@@ -194,13 +194,13 @@ static void events_see_what_modifiers_do(void **state)
     assert_true(info.first == 5 * dt);
     assert_true(sph_sim_time(sim) == (k ? 5 : 9) * dt);
     assert_int_equal(sph_sim_run(sim, 9 * dt), SPH_OK);
-    assert_near(q_of(sim) / (4 * exp(-9 * dt)), 1, 1e-4);
+    assert_near(q_of(sim) / ((k ? 16 : 4) * exp(-9 * dt)), 1, 1e-4);
     sph_sim_free(sim);
   }
 }
 
-/* A step that an event cuts short counts as one, and modifiers come at its end, behind the
- * change. */
+/* A step that an event cuts short counts as one, and modifiers come at its end, behind the change,
+ * also where the run stops there. */
 static int halve(void *ctx, sph_sim *sim)
 {
   script s = {.factor = 0.5};
@@ -212,16 +212,24 @@ static int halve(void *ctx, sph_sim *sim)
 static void cut_steps_count(void **state)
 {
   (void)state;
-  script s = {.factor = 1, .told = 1};
-  sph_sim *sim = decaying(NULL);
-  sph_sim_add_event(
-      sim, &(sph_event){.name = "cut", .type = "time", .threshold = 1.5 * dt, .change = halve});
-  sph_sim_add_modifier(sim, (sph_modifier){.name = "a", .steps = 2, .modify = multiply, .ctx = &s});
-  assert_int_equal(sph_sim_run(sim, 4.5 * dt), SPH_OK);
-  assert_int_equal(s.runs, 2);
-  assert_true(s.time[0] == 1.5 * dt && s.time[1] == 3.5 * dt);
-  assert_near(q_of(sim) / (0.5 * exp(-4.5 * dt)), 1, 1e-4);
-  sph_sim_free(sim);
+  for (int stop = 0; stop < 2; stop++) {
+    script s = {.factor = 1, .told = 1};
+    sph_sim *sim = decaying(NULL);
+    sph_sim_add_event(sim, &(sph_event){.name = "cut",
+                                        .type = "time",
+                                        .threshold = 1.5 * dt,
+                                        .stop = stop,
+                                        .change = stop ? NULL : halve});
+    sph_sim_add_modifier(sim,
+                         (sph_modifier){.name = "a", .steps = 2, .modify = multiply, .ctx = &s});
+    assert_int_equal(sph_sim_run(sim, 4.5 * dt), SPH_OK);
+    assert_true(sph_sim_time(sim) == (stop ? 1.5 : 4.5) * dt);
+    assert_int_equal(sph_sim_run(sim, 4.5 * dt), SPH_OK);
+    assert_int_equal(s.runs, 2);
+    assert_true(s.time[0] == 1.5 * dt && s.time[1] == 3.5 * dt);
+    assert_near(q_of(sim) / ((stop ? 1 : 0.5) * exp(-4.5 * dt)), 1, 1e-4);
+    sph_sim_free(sim);
+  }
 }
 
 int main(void)

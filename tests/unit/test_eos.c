@@ -654,6 +654,19 @@ static void arrays(void **state)
   }
 }
 
+static void accepted(void **state)
+{
+  (void)state;
+  sph_error error = {0};
+  sph_eos eos, own = sph_eos_tait(1000, 40, 7);
+  for (int k = 0; barotropic(k, &eos); k++) assert_int_equal(sph_eos_check(&eos, &error), SPH_OK);
+  eos = sph_eos_ideal_gas(5.0 / 3);
+  assert_int_equal(sph_eos_check(&eos, &error), SPH_OK);
+  own.name = "my-own", own.gamma = 0, own.elastic_energy = NULL; /* not a built-in one: no gamma */
+  assert_int_equal(sph_eos_check(&own, &error), SPH_OK);
+  assert_string_equal(error.text, "");
+}
+
 static void dust(void **state)
 {
   sph_eos eos = sph_eos_dust();
@@ -707,6 +720,7 @@ int main(void)
       cmocka_unit_test(presets),
       cmocka_unit_test(presets_with_a_numerical_sound_speed),
       cmocka_unit_test(arrays),
+      cmocka_unit_test(accepted),
       cmocka_unit_test(names),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

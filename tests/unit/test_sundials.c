@@ -96,6 +96,16 @@ static void stages(void **state)
   N_VLinearSum(1, f, -1, known, f); /* z - gamma f(z) - known */
   N_VLinearSum(1, z, -1, known, z); /* and that is not zero everywhere */
   assert_true(N_VMaxNorm(z) > 0.01 && N_VMaxNorm(f) < 1e-8);
+  assert_string_equal(sph_sim_retry_reason(sim), "");
+  N_Vector of[] = {z, known};
+  for (int k = 0; k < 2; k++) {
+    double *first = N_VGetArrayPointer(of[k]), right = *first;
+    *first = NAN;
+    assert_true(sph_sim_solve(sim, 0, gamma, 1e-10, known, z) > 0);
+    assert_non_null(strstr(sph_sim_retry_reason(sim), k ? "number of known" : "number of z"));
+    *first = right;
+  }
+  assert_int_equal(sph_sim_status(sim), SPH_OK);
   assert_true(sph_sim_solve(sim, 0, -gamma, 1e-10, known, z) < 0);
   assert_non_null(strstr(sph_sim_error(sim), "gamma = -0.05 s"));
   N_VDestroy(z);
@@ -111,6 +121,25 @@ static void stages(void **state)
   sph_sim_free(sim);
 }
 
+static void numbers_of_stages(void **state)
+{
+  (void)state;
+  const double bad[][3] = {{0, INFINITY, 1e-6}, {0, NAN, 1e-6}, {0, 0, 1e-6},
+                           {NAN, 0.05, 1e-6},   {0, 0.05, NAN}, {INFINITY, 0.05, 1},
+                           {0, 0.05, 0}};
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+    double vx = 0;
+    sph_sim *sim = square(&vx);
+    N_Vector known = sph_sim_vector(sim), z = N_VClone(known);
+    N_VScale(1, known, z);
+    assert_int_equal(sph_sim_solve(sim, bad[k][0], bad[k][1], bad[k][2], known, z),
+                     SPH_ERR_ARGUMENT);
+    assert_non_null(strstr(sph_sim_error(sim), "sph_sim_solve: t = "));
+    N_VDestroy(z);
+    sph_sim_free(sim);
+  }
+}
+
 /* Not admissible: > 0 and no error that sticks; a failed simulation has no vector. */
 static void refusals(void **state)
 {
@@ -120,6 +149,7 @@ static void refusals(void **state)
   N_Vector y = sph_sim_vector(sim), bad = N_VClone(y), ydot = N_VClone(y);
   N_VConst(-1, bad);
   assert_true(sph_sim_rhs(0, bad, ydot, sim) > 0);
+  assert_true(sph_sim_retry_reason(sim)[0]);
   assert_int_equal(sph_sim_status(sim), SPH_OK);
   N_VDestroy(bad);
   N_VDestroy(ydot);
@@ -151,6 +181,8 @@ static void state_from_elsewhere(void **state)
   (void)state;
   double vx = 0.02, t = 0.05;
   sph_sim *a = square(&vx), *b = square(&vx);
+  const sph_integrator_def fixed = {.dt_fixed = 2e-3}; /* else a's first step anew knows its last */
+  sph_sim_set_integrator(a, &fixed), sph_sim_set_integrator(b, &fixed);
   assert_int_equal(sph_sim_run(a, t), SPH_OK);
   N_Vector y = sph_sim_vector(a), copy = N_VClone(sph_sim_vector(b));
   double *plain = calloc((size_t)N_VGetLength(y), sizeof *plain);
@@ -186,6 +218,7 @@ int main(void)
   const struct CMUnitTest tests[] = {cmocka_unit_test(rates),
                                      cmocka_unit_test(parts),
                                      cmocka_unit_test(stages),
+                                     cmocka_unit_test(numbers_of_stages),
                                      cmocka_unit_test(refusals),
                                      cmocka_unit_test(weights),
                                      cmocka_unit_test(state_from_elsewhere)};
