@@ -7,9 +7,8 @@
 # SPHODE is the program (build/sphode), TO the folder, REPEAT how many runs the quickest of which counts (3).
 # Integrators that this SUNDIALS has not are left out.  An hour on two cores.
 set -euo pipefail
-program=$(realpath "${SPHODE:-build/sphode}")
+sphode=$(realpath "${SPHODE:-$(dirname "$0")/../build/sphode}")
 cd "$(dirname "$0")/.."
-sphode=$program
 to=${TO:-docs/work-precision}
 stage=$(mktemp -d)
 trap 'rm -rf "$stage"' EXIT
@@ -22,7 +21,7 @@ implicit=$default,imex:ark2-2-3,imex:ark324l2sa-4-2-3,imex:ark436l2sa-6-3-4,imex
 # Those of the list that this build knows: "imex:ark324l2sa-4-2-3+linear=klu" where it has the name before the +.
 known() {
   local names list= method
-  names=$("$sphode" info integrators --json | sed -n 's/.*"name": "\([^"]*\)".*/\1/p')
+  names=$("$sphode" info integrators --json | sed -n '/"built": "yes"/s/.*"name": "\([^"]*\)".*/\1/p')
   for method in ${1//,/ }; do
     if grep -qxF "${method%%+*}" <<<"$names"; then list=${list:+$list,}$method; else echo "left out: $method" >&2; fi
   done

@@ -7,7 +7,7 @@
  *            C. S. Woodward (2005), SUNDIALS, ACM Trans. Math. Softw. 31, 363
  * Run        ./08_drive_cvode
  * See        the amplitude of the flow, and evaluations of f beside those of an explicit run
- * Check      the amplitude is the exact one within 2 % of the steady one, which is what 32
+ * Check      the amplitude is the exact one within 2 % of the steady one, which is what 24
  *            particles in a wave give; evaluations and products with the Jacobian are a tenth of
  *            the evaluations of an explicit run, or less
  *
@@ -33,7 +33,7 @@ static int push(const sph_term *term, const sph_particles *s)
 static sph_sim *make(void)
 {
   sph_sim *sim = sph_sim_create(
-      &(sph_sim_def){.dim = 2, .dx = L / 32, .periodic = {1, 1}, .length = {L, L}, .speed = V});
+      &(sph_sim_def){.dim = 2, .dx = L / 24, .periodic = {1, 1}, .length = {L, L}, .speed = V});
   sph_group *honey = sph_group_box(sim, "honey", (double[]){0, 0}, (double[]){L, L}, 1400);
   sph_group_set_eos(honey, sph_eos_tait(1400, 10 * V, 7));
   sph_group_set_viscosity(honey, 1400 * nu);
