@@ -107,7 +107,8 @@ int sph_prog_check(const prog_options *o)
 {
   sph_error error = {0};
   sph_case *c = sph_case_read(o->what, o->sets, o->set, &error);
-  sph_sim *sim = c ? sph_case_build(c, o->threads, &error) : NULL;
+  int right = c && !sph_case_check_parts(c, &error);
+  sph_sim *sim = right ? sph_case_build(c, o->threads, &error) : NULL;
   int status = sim ? sph_sim_evaluate(sim) : error.status;
   if (!status) {
     printf("%s\n\n", sph_case_title(c));

@@ -48,6 +48,7 @@ static int prepare(job *j)
 {
   sph_error error = {0};
   j->c = sph_case_read(j->o->what, j->o->sets, j->o->set, &error);
+  if (j->c && sph_case_check_parts(j->c, &error)) return failed(&error);
   if (j->c) j->sim = sph_case_build(j->c, j->o->threads, &error);
   if (!j->sim) return failed(&error);
   if (sph_sim_evaluate(j->sim))

@@ -29,6 +29,9 @@ SPH_API void sph_case_free(sph_case *c);
 /* The simulation of the case, without outputs; threads: 0 takes what the case says.  NULL: see
  * error. */
 SPH_API sph_sim *sph_case_build(const sph_case *c, int threads, sph_error *error);
+/* Do the parts of terms fit the integrator that the case names?  Else a run of that simulation
+ * fails; here the place in the file is told.  Another integrator may be set for it. */
+SPH_API int sph_case_check_parts(const sph_case *c, sph_error *error);
 /* The integrator that the case names, as its simulation has it; its strings live as long as c. */
 SPH_API void sph_case_build_integrator(const sph_case *c, sph_integrator_def *def);
 /* The outputs of the case, into a directory; command: the command line, kept in the snapshots;

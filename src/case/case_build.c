@@ -279,6 +279,29 @@ static int add_term(const builder *b, const sph_case_node *map)
   return told(b, child_of(map, "part"));
 }
 
+/* Behind the terms: of each scale, does its group integrate that? */
+static int check_scales(const builder *b, const sph_case_node *map)
+{
+  static const char *const energies[][2] = {{"energy", "u"},
+                                            {"total_energy", "total"},
+                                            {"entropic_function", "entropy"},
+                                            {"temperature", "temperature"}};
+  const sph_case_node *scales = child_of(map, "scales"), *one = scales ? scales->first : NULL;
+  const char *energy = sph_group_energy(sph_sim_group(b->sim, map->key));
+  const int summed = child_of(child_of(b->c->root, "terms"), "summation") != NULL;
+  for (; one; one = one->next) {
+    int right = !strcmp(one->key, "density") ? !summed : 1;
+    for (int k = 0; k < 4; k++)
+      if (!strcmp(one->key, energies[k][0])) right = !strcmp(energy, energies[k][1]);
+    if (right) continue;
+    return sph_case_schema_fail(b->c, b->error, one, 0, 0,
+                                "%s: a scale of what %s does not integrate (its density is %s, its "
+                                "energy: %s)",
+                                one->key, map->key, summed ? "a sum" : "integrated", energy);
+  }
+  return SPH_OK;
+}
+
 static sph_integrator_def integrator_of(const sph_case_node *map)
 {
   int control = get_number(map, "error_control", 1) != 0;
@@ -339,6 +362,8 @@ static int build_parts(builder *b)
     status = build_group(b, node);
   for (node = child_of(root, "terms")->first; node && !status; node = node->next)
     status = add_term(b, node);
+  for (node = child_of(root, "groups")->first; node && !status; node = node->next)
+    status = check_scales(b, node);
   if (!status) status = set_integrator(b, child_of(root, "integrator"));
   for (node = child_of(root, "groups")->first; node && !status; node = node->next)
     status = set_initial(b, node);

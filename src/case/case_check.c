@@ -11,6 +11,7 @@
 #include "case_material.h"
 #include "case_schema.h"
 #include "case_solution.h"
+#include "sphode/case.h"
 #include "words.h"
 
 static int check_value(sph_case *c, const sph_case_key *key, sph_case_node *node);
@@ -361,6 +362,37 @@ static int check_drag(sph_case *c)
   if (!drag || !K != !time) return SPH_OK;
   if (K) return FAIL_KEY(time, "drag: found both coefficient and stopping_time; one is right");
   return FAIL_KEY(drag, "missing key 'coefficient' or 'stopping_time' in drag");
+}
+
+int sph_case_check_parts(const sph_case *c, sph_error *error)
+{
+  sph_error own = {0};
+  if (!error) error = &own;
+  if (!c) return sph_error_set(error, SPH_ERR_ARGUMENT, "the parts of no case (NULL)");
+  const sph_case_node *terms = sph_case_reader_find(c->root, "terms");
+  const sph_case_node *method =
+      sph_case_reader_find(sph_case_reader_find(c->root, "integrator"), "method");
+  const char *name = method ? method->text : "";
+  const int imex = !strncmp(name, "imex:", 5), mri = !strncmp(name, "mri:", 4);
+  int parts = 0, implicit = 0, fast = 0;
+  for (const sph_case_node *term = terms->first; term; term = term->next) {
+    const sph_case_node *part = sph_case_reader_find(term, "part");
+    if (!part) continue;
+    const int is_implicit = !strcmp(part->text, "implicit"), is_fast = !strcmp(part->text, "fast");
+    if ((is_implicit && !imex) || (is_fast && !mri))
+      return sph_case_schema_fail(c, error, part, 1, 0,
+                                  "part: found %s, but integrator %s steps all terms alike; right "
+                                  "is method: %s",
+                                  part->text, name, is_fast ? "mri:<coupling>" : "imex:<table>");
+    parts++, implicit += is_implicit, fast += is_fast;
+  }
+  if (mri && !fast)
+    return sph_case_schema_fail(c, error, method, 1, 0,
+                                "method: %s needs fast terms; none has part: fast", name);
+  if (imex && parts && !implicit)
+    return sph_case_schema_fail(c, error, method, 1, 0,
+                                "method: %s needs implicit terms; none has part: implicit", name);
+  return SPH_OK;
 }
 
 int sph_case_check(sph_case *c)

@@ -78,6 +78,7 @@ static void no_case(void **state)
   assert_null(sph_case_build(NULL, 1, &e));
   told(&e, e.status, "no case (NULL)");
   assert_null(sph_case_build(NULL, 1, NULL));
+  assert_int_equal(sph_case_check_parts(NULL, NULL), SPH_ERR_ARGUMENT);
   told(&e, sph_case_compare(NULL, NULL, NULL, &list, &n, &e), "no case (NULL)");
   assert_true(list == NULL && n == 0);
   told(&e, sph_case_compare_plot(NULL, 0, "d", png, sizeof png, &e), "no case (NULL)");

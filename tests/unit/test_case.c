@@ -452,7 +452,9 @@ static void check_broken(const char *directory, const char *file)
   assert_non_null(text);
   message = text + 3; /* "#: " */
   message[strcspn(message, "\n")] = 0;
-  assert_null(sph_case_read(path, 0, NULL, &error));
+  sph_case *c = sph_case_read(path, 0, NULL, &error);
+  if (c && !sph_case_check_parts(c, &error)) assert_null(sph_case_build(c, 1, &error));
+  sph_case_free(c);
   assert_int_equal(error.status, SPH_ERR_PARSE);
   assert_true(!strncmp(error.text, path, strlen(path)) && error.text[strlen(path)] == ':');
   assert_string_equal(error.text + strlen(path) + 1, message);
