@@ -35,7 +35,8 @@ const char *sph_linear_name(int k);
 sph_linear *sph_linear_create(const char *name, int threads, sph_error *error);
 
 /* Solves.  Iterative methods stop where a bound of the error falls below the tolerance, direct ones
- * do not look at it.  The bits are the same for any number of threads.
+ * do not look at it.  The bits are the same for any number of threads (CHOLMOD's, with another BLAS
+ * than OpenBLAS that has threads of its own: for any but those, which its environment sets).
  *
  * SPH_RETRY: no solution, since A is not positive definite, a number is not finite or iterations
  * ran out; sph_linear_reason tells, x is arbitrary.  < 0: recorded. */

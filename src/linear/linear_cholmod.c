@@ -1,10 +1,11 @@
 /* Cholesky factors by CHOLMOD (Chen, Davis, Hager & Rajamanickam 2008), supernodal or simplicial.
  *
  * CHOLMOD takes memory by SuiteSparse's functions, and calls the BLAS, which may have threads of
- * its own: OPENBLAS_NUM_THREADS=1 (or what the BLAS at hand asks for) keeps it to one. */
+ * its own: an OpenBLAS is kept to one (blas_threads.h). */
 #include <cholmod.h>
 #include <string.h>
 
+#include "blas_threads.h"
 #include "columns.h"
 #include "linear_cholmod.h"
 #include "linear_data.h"
@@ -81,7 +82,9 @@ static int prepare(sph_linear *solver, const sph_csr *A, int change, sph_error *
                                             : sph_columns_set(&s->upper, A, 1, error);
   if (status) return status;
   cholmod_sparse upper = view(s);
+  sph_blas_threads_hold();
   cholmod_l_factorize(&upper, s->L, &s->common);
+  sph_blas_threads_release();
   solver->stats.factorisations++;
   if (s->common.status == CHOLMOD_NOT_POSDEF)
     return sph_linear_refuse(solver, "the matrix is not positive definite: pivot %zu of %ld",
@@ -98,9 +101,11 @@ static int solve(sph_linear *solver, const sph_linear_task *task, sph_error *err
     made = cholmod_l_ensure_dense(&s->Y, n, columns, n, CHOLMOD_REAL, &s->common) != NULL;
   for (size_t c = 0; made && c < columns; c++)
     memcpy((double *)s->B->x + c * n, task->b[c], n * sizeof(double));
-  if (!made ||
-      !cholmod_l_solve2(CHOLMOD_A, s->L, s->B, NULL, &s->X, NULL, &s->Y, &s->E, &s->common))
-    return out_of_memory(s, task->A, error);
+  sph_blas_threads_hold();
+  if (made)
+    made = cholmod_l_solve2(CHOLMOD_A, s->L, s->B, NULL, &s->X, NULL, &s->Y, &s->E, &s->common);
+  sph_blas_threads_release();
+  if (!made) return out_of_memory(s, task->A, error);
   for (size_t c = 0; c < columns; c++)
     memcpy(task->x[c], (double *)s->X->x + c * n, n * sizeof(double));
   return SPH_OK;

@@ -447,6 +447,32 @@ static void matrices_grow(void **state)
   assert_true(!A.start && !A.room_rows);
 }
 
+/* In place of those of an OpenBLAS. */
+static int blas_threads = 7, least_threads = 7;
+void openblas_set_num_threads(int threads);
+int openblas_get_num_threads(void);
+void openblas_set_num_threads(int threads)
+{
+  blas_threads = threads;
+  if (threads < least_threads) least_threads = threads;
+}
+int openblas_get_num_threads(void) { return blas_threads; }
+
+/* Factors are made with one thread of the BLAS, which has all of its own again behind that. */
+static void blas_has_one_thread(void **state)
+{
+  (void)state;
+  least_threads = blas_threads = 7;
+  spd_make(&p.A, 2, 12, 1e3, 3);
+  sph_linear *solver = create("cholmod-supernodal", 2);
+  fill(2, 20);
+  expect_solved(solver, 1, 1, "cholmod-supernodal");
+  assert_int_equal(least_threads, 1);
+  assert_int_equal(blas_threads, 7);
+  sph_linear_free(solver);
+  sph_csr_free(&p.A);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -463,6 +489,7 @@ int main(void)
       cmocka_unit_test(names),
       cmocka_unit_test(bad_tasks),
       cmocka_unit_test(matrices_grow),
+      cmocka_unit_test(blas_has_one_thread),
   };
   gsl_set_error_handler_off();
   return cmocka_run_group_tests(tests, NULL, NULL);
