@@ -71,7 +71,24 @@ typedef struct sph_scalar {
   const char *unit; /* "kg/m^3"; NULL: "1"; copied */
   double scale;     /* of its error weights: a change that matters, > 0 */
   double initial;   /* value at the start */
+  int per_volume;   /* implicit pairs exchange 0: amounts per mass; 1: amounts per volume */
 } sph_scalar;
+
+/* How the rates of a term change with what they act on, where the term is implicit: add to those
+ * that are not NULL, [n] of the particles or of the tile.  Rates that decay, and exchange between
+ * pairs:
+ *
+ *   body  v = - da/dv,  T = - d(heating)/dT,  s = - d(ds)/ds,  each >= 0
+ *   pair  v, T, s >= 0 with a_i = - sum v (v_i - v_j) + ..., heating and ds likewise by T and s;
+ *         m_i v, m_i T and m_i s (or V_i s: scalar.per_volume) are the same for both ends
+ *
+ * They decide how fast a stage converges, not to what: leave out what is small or has the other
+ * sign.  The velocity, temperature and scalar that the particles have are those of the iterate. */
+typedef struct sph_jacobian {
+  double *v; /* [1/s] the same in all directions */
+  double *T; /* [W/(kg K)] */
+  double *s; /* [1/s] of the term's own scalar */
+} sph_jacobian;
 
 typedef struct sph_term sph_term;
 struct sph_term {
@@ -105,6 +122,13 @@ struct sph_term {
   const char *adds; /* what pair adds to, as "along_r ds": only that is summed; NULL: all; copied */
   sph_scalar scalar; /* what it integrates besides; scalar.name NULL: nothing */
   double (*dt_max)(const sph_term *term, const sph_particles *particles); /* [s]; NULL: no limit */
+  /* A term that may be implicit: what it changes, of "velocity energy scalar"; NULL: it may not;
+   * copied.  Stages are iterated until they are met by body and pair; one or both of these make
+   * that fast.  jacobian_pair is called from several threads at once. */
+  const char *implicit;
+  void (*jacobian_body)(const sph_term *term, const sph_particles *particles,
+                        const sph_jacobian *jacobian);
+  void (*jacobian_pair)(const sph_term *term, const sph_tile *tile, const sph_jacobian *jacobian);
   /* [J/kg] for the energy balance; NULL: none */
   double (*potential)(const sph_term *term, const double x[3]);
   void *ctx;            /* the user's; borrowed unless free is given */

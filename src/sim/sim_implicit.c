@@ -5,6 +5,7 @@
  *   v     laminar and artificial viscosity,
  *         drag of dust                       m dv/dt = - sum K_ij (v_i - v_j)
  *   u     heating by them with the new v, conduction   m du/dt = Q - sum k_ij (T_i - T_j)
+ *   s     scalars of registered terms
  *
  * each by linear solves with the matrices of matrix_pair.h.  What these do not hold is iterated
  * until the stage equation is met to the stage's tolerance:
@@ -15,11 +16,13 @@
  *   density diffusion    V, gradients and hydrostatic differences of the last iterate
  *   artificial viscosity Newton: who approaches, and how fast, as in the last iterate
  *   T(u)                 Newton, where c_v is not constant
+ *   registered terms     with the Jacobians that they give, Newton or nearly so
  *
  * Unknown and state differ for energies: T is solved for, dU = s c_v dT of the integrated one. */
 #include "sim_implicit.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "clock.h"
 #include "linear.h"
@@ -27,6 +30,7 @@
 #include "sim_energy.h"
 #include "sim_matrix.h"
 #include "sim_parts.h"
+#include "sim_weights.h"
 #include "term_part.h"
 
 enum { MOST = 40, ROWS = 1024 }; /* iterations; rows from which on threads pay */
@@ -38,11 +42,13 @@ enum {
 };
 
 /* Fields that are solved for, one after the other. */
-enum { DENSITY, VELOCITY, ENERGY, UNKNOWNS };
+enum { DENSITY, VELOCITY, ENERGY, SCALAR, UNKNOWNS = SCALAR + SPH_SCALARS_MAX };
 
 /* What one of them is solved with. */
 typedef struct unknown {
-  int there, number;    /* terms of it are implicit; DENSITY, ... */
+  int there, number;    /* terms of it are implicit; DENSITY, ..., SCALAR + number of the scalar */
+  unsigned called;      /* bit k: terms.call[k] is among them */
+  int per_volume;       /* scalars */
   int drags;            /* by drag, too: then dust takes part */
   int components;       /* columns of the scalar matrix; dim with the vector matrix, too */
   int direct;           /* f is linear: what the matrix has, what walls add, and the heating */
@@ -55,16 +61,17 @@ typedef struct unknown {
 
 struct sph_implicit {
   unknown unknown[UNKNOWNS];
-  int heats; /* implicit viscosity heats an energy */
-  int loops; /* the energy acts back on the velocity or the density */
+  int heats;        /* implicit terms of the velocity heat an energy */
+  int loops;        /* what comes later acts back on what comes before */
+  sph_part heating; /* the terms that do */
   sph_pattern pattern;
   sph_matrix scalar, vector;
-  sph_linear *solver[2]; /* of these */
-  N_Vector rate;
-  long rows; /* room */
+  sph_linear *solver[2];     /* of these */
+  N_Vector rate, last, norm; /* the last two where it loops */
+  long rows;                 /* room */
   /* Row by row, [rows * dim]: the unknown, before and after; right-hand side; 1 / scale. */
   double *x, *old, *b, *weight;
-  double *heat, *last; /* [rows] rate of the energy by viscosity; the energy of the last sweep */
+  double *heat; /* [rows] rate of the energy by terms of the velocity */
 };
 
 /* One stage at work: views of its vectors. */
@@ -77,20 +84,22 @@ typedef struct solving {
 
 /* ---- rows ---- */
 
-/* Of dust, only drag acts on the velocity. */
+/* Of dust, only drag and registered terms act on the velocity; it has no energy. */
 static int takes_part(const sph_group *group, const unknown *u)
 {
-  return !group->wall && (!group->eos.dust || u->drags);
+  return !group->wall && (!group->eos.dust || u->drags || (u->called && u->number != ENERGY));
 }
 
 static double *field_of(const sph_view *view, const unknown *u, int c)
 {
+  if (u->number >= SCALAR) return view->s[u->number - SCALAR];
   if (u->number == DENSITY) return view->rho;
   return u->number == VELOCITY ? view->v[c] : view->energy;
 }
 
 static const double *rate_of(const sph_view *rate, const unknown *u, int c)
 {
+  if (u->number >= SCALAR) return rate->ds[u->number - SCALAR];
   if (u->number == DENSITY) return rate->drho;
   return u->number == VELOCITY ? rate->dv[c] : rate->du;
 }
@@ -116,12 +125,13 @@ static double factor_of(const sph_group *group, const sph_view *z, const unknown
 /* M: of the symmetric form of the equation. */
 static double mass_of(const sph_group *group, const sph_view *z, const unknown *u, long i)
 {
-  if (u->number == DENSITY) return z->m[i] / z->rho[i];
+  if (u->number == DENSITY || u->per_volume) return z->m[i] / z->rho[i];
   return u->number == ENERGY ? z->m[i] * group->eos.c_v : z->m[i];
 }
 
 static int field_number(const sph_group *group, const unknown *u)
 {
+  if (u->number >= SCALAR) return SPH_SCALAR + u->number - SCALAR;
   if (u->number == DENSITY) return SPH_DENSITY;
   return u->number == VELOCITY ? SPH_VELOCITY : sph_group_data_energy(group);
 }
@@ -287,6 +297,45 @@ static int evaluate(const solving *s, const unknown *u)
   return status;
 }
 
+/* What jacobian_body of a group's terms adds to the diagonal: gamma M times the decay. */
+static void add_bodies(const solving *s, const unknown *u, const sph_evaluation *e, int g)
+{
+  struct sph_implicit *own = s->own;
+  const sph_term_set *terms = &s->sim->terms;
+  const int *order = sph_neighbors_order(s->sim->neighbors, g);
+  const int d = u->matrix->components;
+  const double gamma = s->stage->gamma;
+  double *decay = own->b; /* [n], not in use yet */
+  memset(decay, 0, (size_t)s->z[g].n * sizeof *decay);
+  const sph_jacobian jacobian = {.v = u->number == VELOCITY ? decay : NULL,
+                                 .T = u->number == ENERGY ? decay : NULL,
+                                 .s = u->number >= SCALAR ? decay : NULL};
+  for (int k = 0; k < terms->called; k++) {
+    const sph_called_term *call = &terms->call[k];
+    if (!(u->called >> k & 1) || !call->term.jacobian_body) continue;
+    sph_particles particles = sph_sim_bodies_particles(e, g);
+    particles.s = call->scalar < 0 ? NULL : s->z[g].s[call->scalar];
+    call->term.jacobian_body(&call->term, &particles, &jacobian);
+  }
+  for (long k = 0; k < s->z[g].n; k++) {
+    const long i = order[k], row = own->pattern.base[g] + k;
+    const double mass = u->number == ENERGY ? s->z[g].m[i] : u->matrix->A.floor[row * d];
+    for (int c = 0; c < d; c++)
+      u->matrix->A.diagonal[row * d + c] += gamma * mass * fmax(decay[i], 0);
+  }
+}
+
+static void add_called(const solving *s, const unknown *u, sph_evaluation *e)
+{
+  const int which = u->number == VELOCITY ? TILE_VELOCITY
+                    : u->number == ENERGY ? TILE_TEMPERATURE
+                                          : TILE_SCALAR;
+  for (int g = 0; g < s->sim->groups; g++)
+    if (takes_part(s->sim->group[g], u)) add_bodies(s, u, e, g);
+  if (u->part.tiles)
+    sph_sim_matrix_add_tiles(e, &s->own->pattern, u->matrix, s->stage->gamma, which, u->per_volume);
+}
+
 static int fill(const solving *s, const unknown *u)
 {
   sph_evaluation e = evaluation_of(s, &u->part);
@@ -295,6 +344,7 @@ static int fill(const solving *s, const unknown *u)
   rows(s, u, set_mass);
   idle_rows(s, u);
   sph_sim_matrix_fill(&e, &s->own->pattern, u->matrix, s->stage->gamma, u->coupling);
+  if (u->called) add_called(s, u, &e);
   return SPH_OK;
 }
 
@@ -355,7 +405,7 @@ static int solve_linear(const solving *s, const unknown *u)
   s->stage->iterations += stats.last;
   if (status > 0)
     return sph_sim_admit_retry(s->sim, "implicit stage: %s", sph_linear_reason(u->solver));
-  if (!status && !u->meets_walls) conserve(s, u);
+  if (!status && !u->meets_walls && !u->called) conserve(s, u);
   return status;
 }
 
@@ -364,7 +414,7 @@ static double missed(const solving *s, const unknown *u)
 {
   struct sph_implicit *own = s->own;
   double sum = 0;
-  if (u->number != ENERGY) return 0;
+  if (u->number != ENERGY || !u->direct) return 0;
   for (int g = 0; g < s->sim->groups; g++) {
     const int *order = sph_neighbors_order(s->sim->neighbors, g);
     if (!takes_part(s->sim->group[g], u)) continue;
@@ -385,7 +435,11 @@ static int near_enough(double change, double last, double tolerance)
   return change * rate / (1 - rate) <= 0.3 * tolerance;
 }
 
-static const char *const names[UNKNOWNS] = {"densities", "velocities", "energies"};
+static const char *name_of(const solving *s, const unknown *u)
+{
+  static const char *const names[] = {"density", "velocity", "energy"};
+  return u->number < SCALAR ? names[u->number] : s->sim->terms.scalar[u->number - SCALAR].name;
+}
 
 static int solve_unknown(const solving *s, const unknown *u)
 {
@@ -407,15 +461,15 @@ static int solve_unknown(const solving *s, const unknown *u)
   return sph_sim_admit_retry(s->sim,
                              "implicit stage: %s change by %g of the tolerance still after %d "
                              "iterations",
-                             names[u->number], last / s->stage->tolerance, MOST);
+                             name_of(s, u), last / s->stage->tolerance, MOST);
 }
 
 static int solve_energy(const solving *s)
 {
   struct sph_implicit *own = s->own;
-  const unknown *u = &own->unknown[ENERGY], *v = &own->unknown[VELOCITY];
+  const unknown *u = &own->unknown[ENERGY];
   if (own->heats) {
-    int status = sph_sim_rhs_part(s->sim, &v->part, s->stage->t, s->stage->z, own->rate);
+    int status = sph_sim_rhs_part(s->sim, &own->heating, s->stage->t, s->stage->z, own->rate);
     if (status) return status;
     rows(s, u, take_heat);
     rows(s, u, add_heat);
@@ -425,43 +479,36 @@ static int solve_energy(const solving *s)
 
 /* ---- the stage ---- */
 
-/* The change of the energies since the last call, in the norm of the stage. */
-static double turn(const solving *s)
+/* The change of the state since the last call, in the norm of the stage. */
+static int turn(const solving *s, double *change)
 {
-  struct sph_implicit *own = s->own;
-  const unknown *u = &own->unknown[ENERGY];
-  double sum = 0;
-  for (int g = 0; g < s->sim->groups; g++) {
-    const int *order = sph_neighbors_order(s->sim->neighbors, g);
-    const sph_group *group = s->sim->group[g];
-    if (!takes_part(group, u)) continue;
-    for (long k = 0; k < s->z[g].n; k++) {
-      const double energy = s->z[g].energy[order[k]],
-                   scale = s->sim->scale[g][field_number(group, u)];
-      double *last = &own->last[own->pattern.base[g] + k];
-      sum += (energy - *last) * (energy - *last) / (scale * scale);
-      *last = energy;
-    }
-  }
-  return mean(sum, active_rows(s, u));
+  N_Vector last = s->own->last, rate = s->own->rate, weight = s->own->norm;
+  int status = sph_sim_weights(s->stage->z, weight, s->sim);
+  N_VLinearSum(1, s->stage->z, -1, last, rate);
+  *change = N_VWrmsNorm(rate, weight);
+  N_VScale(1, s->stage->z, last);
+  return status;
 }
 
 static int solve_all(const solving *s)
 {
   const struct sph_implicit *own = s->own;
-  double last = 0;
-  if (own->loops) turn(s);
-  for (int k = 0; k < MOST; k++) {
-    int status = SPH_OK;
-    for (int q = DENSITY; !status && q <= VELOCITY; q++)
-      if (own->unknown[q].there) status = solve_unknown(s, &own->unknown[q]);
-    if (!status) status = solve_energy(s);
+  double last = 0, change = 0;
+  int status = own->loops ? turn(s, &change) : SPH_OK;
+  for (int k = 0; !status && k < MOST; k++) {
+    for (int q = 0; !status && q < UNKNOWNS; q++)
+      if (q == ENERGY)
+        status = solve_energy(s);
+      else if (own->unknown[q].there)
+        status = solve_unknown(s, &own->unknown[q]);
+    if (!status && own->loops) status = turn(s, &change);
     if (status || !own->loops) return status;
-    double change = turn(s);
-    if (near_enough(change, last, s->stage->tolerance)) return SPH_OK;
+    if (k > 0 && near_enough(change, last, s->stage->tolerance)) return SPH_OK;
     last = change;
   }
-  return sph_sim_admit_retry(s->sim, "implicit stage: velocities and energies do not settle");
+  return status ? status
+                : sph_sim_admit_retry(s->sim, "implicit stage: unknowns that act on each other do "
+                                              "not settle");
 }
 
 /* z is `known` but for what is solved for, where it is a guess; energies start from `known`. */
@@ -476,12 +523,13 @@ static void start(const solving *s, int g, long i)
   }
   if (!u[DENSITY].there || !takes_part(group, &u[DENSITY])) z->rho[i] = known->rho[i];
   if (z->energy) z->energy[i] = known->energy[i];
-  for (int q = 0; q < s->sim->terms.scalars; q++) z->s[q][i] = known->s[q][i];
+  for (int q = 0; q < s->sim->terms.scalars; q++)
+    if (!u[SCALAR + q].there || !takes_part(group, &u[SCALAR + q])) z->s[q][i] = known->s[q][i];
 }
 
 static int reserve(sph_sim *sim, struct sph_implicit *own)
 {
-  double **all[] = {&own->x, &own->old, &own->b, &own->weight, &own->heat, &own->last};
+  double **all[] = {&own->x, &own->old, &own->b, &own->weight, &own->heat};
   for (size_t k = 0; own->pattern.rows > own->rows && k < sizeof all / sizeof *all; k++)
     if (sph_memory_grow((void **)all[k], 0, (size_t)(own->pattern.rows * sim->dim), sizeof(double),
                         "rows of implicit stages", &sim->error))
@@ -523,16 +571,19 @@ int sph_sim_implicit_solve(sph_stage *stage, void *ctx)
 
 /* ---- before the run ---- */
 
-static int make_unknown(sph_sim *sim, int number, unsigned bits, int coupling)
+static int make_unknown(sph_sim *sim, int number, unsigned bits, unsigned called)
 {
+  static const int coupling[] = {SPH_COUPLING_DIFFUSION, SPH_COUPLING_VISCOSITY,
+                                 SPH_COUPLING_CONDUCTION};
   struct sph_implicit *own = sim->implicit;
   unknown *u = &own->unknown[number];
   const int vector = number == VELOCITY && (bits & CENTRAL);
-  *u = (unknown){.number = number, .there = bits != 0, .coupling = coupling};
-  if (!bits) return SPH_OK;
+  *u = (unknown){.number = number, .there = bits || called, .called = called};
+  if (!u->there) return SPH_OK;
+  u->coupling = number < SCALAR ? coupling[number] : SPH_COUPLING_NONE;
   u->components = number == VELOCITY ? sim->dim : 1;
   u->drags = (bits & SPH_DRAG) != 0;
-  u->direct = number != DENSITY && !(bits & SPH_ARTIFICIAL);
+  u->direct = number != DENSITY && !(bits & SPH_ARTIFICIAL) && !called;
   u->matrix = vector ? &own->vector : &own->scalar;
   u->matrix->vector = vector;
   u->matrix->components = vector ? sim->dim : 1;
@@ -540,49 +591,126 @@ static int make_unknown(sph_sim *sim, int number, unsigned bits, int coupling)
     own->solver[vector] = sph_linear_create(sim->integrator_def.linear, sim->threads, &sim->error);
   u->solver = own->solver[vector];
   if (!u->solver) return sim->error.status;
-  int status = sph_sim_parts_of(sim, &u->part, bits, 0);
-  if (!status) status = sph_sim_parts_of(sim, &u->walls, bits, 0);
+  int status = sph_sim_parts_of(sim, &u->part, bits, called);
+  u->walls = u->part;
   u->walls.only_walls = 1;
   u->walls.drag = 0;
   u->meets_walls = u->part.walls;
   return status;
 }
 
-int sph_sim_implicit_make(sph_sim *sim)
+/* Implicit called terms that change this (enum sph_term_changes). */
+static unsigned called_that(const sph_sim *sim, unsigned changes, int scalar)
 {
-  const unsigned bits = sim->loop_terms & sim->terms.implicit;
-  if (!sph_term_part_first(&sim->terms, SPH_TERM_IMPLICIT)) return SPH_OK;
-  struct sph_implicit *own = sim->implicit =
-      SPH_NEW(struct sph_implicit, 1, "implicit stages", &sim->error);
-  if (!own) return SPH_ERR_MEMORY;
-  int status = make_unknown(sim, DENSITY, bits & SPH_DIFFUSION, SPH_COUPLING_DIFFUSION);
+  unsigned called = 0;
+  for (int k = 0; k < sim->terms.called; k++) {
+    const sph_called_term *call = &sim->terms.call[k];
+    if (call->part == SPH_TERM_IMPLICIT && (call->changes & changes) &&
+        (scalar < 0 || call->scalar == scalar))
+      called |= 1u << k;
+  }
+  return called;
+}
+
+int sph_sim_implicit_heats(const sph_sim *sim)
+{
+  return called_that(sim, SPH_CHANGES_ENERGY, -1) != 0;
+}
+
+/* They need an energy and a temperature. */
+int sph_sim_implicit_check(sph_sim *sim)
+{
+  for (int g = 0; g < sim->groups && sph_sim_implicit_heats(sim); g++) {
+    const sph_group *group = sim->group[g];
+    if (group->wall || group->eos.dust || (sph_group_data_energy(group) >= 0 && group->eos.c_v > 0))
+      continue;
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "an implicit term changes the energy of %s, which has not both an energy "
+                        "(sph_group_set_energy) and a specific heat (eos.c_v)",
+                        group->name);
+  }
+  return SPH_OK;
+}
+
+/* Does a term act on more than one unknown? */
+static int some_act_on_several(const sph_sim *sim)
+{
+  for (int k = 0; k < sim->terms.called; k++) {
+    const unsigned changes = sim->terms.call[k].changes;
+    if (sim->terms.call[k].part == SPH_TERM_IMPLICIT && (changes & (changes - 1))) return 1;
+  }
+  return 0;
+}
+
+static int make_unknowns(sph_sim *sim, unsigned bits)
+{
+  const sph_term_set *terms = &sim->terms;
+  int status = make_unknown(sim, DENSITY, bits & SPH_DIFFUSION, 0);
   if (!status)
-    status = make_unknown(sim, VELOCITY, bits & (VISCOUS | SPH_DRAG), SPH_COUPLING_VISCOSITY);
-  if (!status) status = make_unknown(sim, ENERGY, bits & SPH_CONDUCTION, SPH_COUPLING_CONDUCTION);
-  if (status) return status;
+    status = make_unknown(sim, VELOCITY, bits & (VISCOUS | SPH_DRAG),
+                          called_that(sim, SPH_CHANGES_VELOCITY, -1));
+  if (!status)
+    status =
+        make_unknown(sim, ENERGY, bits & SPH_CONDUCTION, called_that(sim, SPH_CHANGES_ENERGY, -1));
+  for (int q = 0; !status && q < terms->scalars; q++) {
+    unsigned called = called_that(sim, SPH_CHANGES_SCALAR, q);
+    status = make_unknown(sim, SCALAR + q, 0, called);
+    for (int k = 0; k < terms->called; k++)
+      if (called >> k & 1)
+        sim->implicit->unknown[SCALAR + q].per_volume = terms->call[k].term.scalar.per_volume;
+  }
+  return status;
+}
+
+/* Which unknowns act on each other. */
+static int make_order(sph_sim *sim, unsigned bits)
+{
+  struct sph_implicit *own = sim->implicit;
+  const unknown *u = own->unknown;
   int energies = 0, thermal = 0;
   for (int g = 0; g < sim->groups; g++) {
     energies |= sph_group_data_energy(sim->group[g]) >= 0;
     thermal |= !sim->group[g]->wall && sim->group[g]->eos.thermal;
   }
-  own->heats = energies && own->unknown[VELOCITY].there;
-  own->loops = thermal && ((bits & SPH_ARTIFICIAL) || own->unknown[DENSITY].meets_walls) &&
-               (own->heats || own->unknown[ENERGY].there);
-  own->rate = sph_nvector_clone(sim->y, "rates of implicit terms", &sim->error);
-  return own->rate ? SPH_OK : SPH_ERR_MEMORY;
+  own->heats = energies && u[VELOCITY].there;
+  own->loops =
+      some_act_on_several(sim) || (thermal && ((bits & SPH_ARTIFICIAL) || u[DENSITY].meets_walls) &&
+                                   (own->heats || u[ENERGY].there));
+  return sph_sim_parts_of(sim, &own->heating, bits & (VISCOUS | SPH_DRAG),
+                          u[VELOCITY].called & ~u[ENERGY].called);
+}
+
+int sph_sim_implicit_make(sph_sim *sim)
+{
+  const unsigned bits = sim->loop_terms & sim->terms.implicit;
+  sph_error *error = &sim->error;
+  if (!sph_term_part_first(&sim->terms, SPH_TERM_IMPLICIT)) return SPH_OK;
+  struct sph_implicit *own = sim->implicit =
+      SPH_NEW(struct sph_implicit, 1, "implicit stages", error);
+  if (!own) return SPH_ERR_MEMORY;
+  int status = make_unknowns(sim, bits);
+  if (!status) status = make_order(sim, bits);
+  if (status) return status;
+  own->rate = sph_nvector_clone(sim->y, "rates of implicit terms", error);
+  if (!own->rate || !own->loops) return error->status;
+  own->last = sph_nvector_clone(sim->y, "an implicit stage", error);
+  own->norm = sph_nvector_clone(sim->y, "an implicit stage", error);
+  return error->status;
 }
 
 void sph_sim_implicit_free(sph_sim *sim)
 {
   struct sph_implicit *own = sim->implicit;
   if (!own) return;
-  double *all[] = {own->x, own->old, own->b, own->weight, own->heat, own->last};
+  double *all[] = {own->x, own->old, own->b, own->weight, own->heat};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) sph_memory_free(all[k]);
   sph_sim_matrix_pattern_free(&own->pattern);
   sph_sim_matrix_free(&own->scalar);
   sph_sim_matrix_free(&own->vector);
   for (int k = 0; k < 2; k++) sph_linear_free(own->solver[k]);
-  if (own->rate) N_VDestroy(own->rate);
+  N_Vector vector[] = {own->rate, own->last, own->norm};
+  for (int k = 0; k < 3; k++)
+    if (vector[k]) N_VDestroy(vector[k]);
   sph_memory_free(own);
   sim->implicit = NULL;
 }

@@ -7,6 +7,10 @@
 int sph_sim_implicit_make(sph_sim *sim);
 void sph_sim_implicit_free(sph_sim *sim);
 
+/* Is there an implicit term of the user's own that changes the energy?  Has every fluid one? */
+int sph_sim_implicit_heats(const sph_sim *sim);
+int sph_sim_implicit_check(sph_sim *sim);
+
 /* sph_problem.solve */
 int sph_sim_implicit_solve(sph_stage *stage, void *sim);
 

@@ -82,10 +82,10 @@ fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part
   return k;
 }
 
-/* Registered pair terms beside the built-in ones. */
-static void add_tiles(sph_evaluation *e, const fluid_constants *fluid, int target, int source)
+tile_constants sph_sim_interaction_tile(const sph_evaluation *e, const fluid_constants *fluid,
+                                        int target, int source)
 {
-  sph_sim *sim = e->sim;
+  const sph_sim *sim = e->sim;
   const sph_part *part = e->part;
   tile_constants k = {.fluid = *fluid,
                       .F_scale = sim->F_scale,
@@ -100,6 +100,14 @@ static void add_tiles(sph_evaluation *e, const fluid_constants *fluid, int targe
                       .adds = part->tile_adds,
                       .terms = part->tiles};
   memcpy(k.term, part->tile, sizeof k.term);
+  return k;
+}
+
+/* Registered pair terms beside the built-in ones. */
+static void add_tiles(sph_evaluation *e, const fluid_constants *fluid, int target, int source)
+{
+  sph_sim *sim = e->sim;
+  const tile_constants k = sph_sim_interaction_tile(e, fluid, target, source);
   sph_sim_pairs_loop(sim, sph_tile_loop(sim->isa, sim->kernel_number, sim->dim), target, source,
                      &k);
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "memory.h"
+#include "tile_loops.h"
 
 enum { BLOCKS = 64, ROWS = 1024 }; /* a thread's share */
 
@@ -237,20 +238,20 @@ static matrix_constants constants_of(const sph_evaluation *e, int target, int so
   return k;
 }
 
-static void fill_fluid(const sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
-                       int target, int source, const matrix_constants *constants)
+/* A loop over all target blocks of (target <- source); masks NULL: source is a wall. */
+static void loop_over(const sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
+                      sph_matrix_function *loop, int target, int source, const void *constants)
 {
   const sph_sim *sim = e->sim;
   const sph_list list = sph_neighbors_list(sim->neighbors, target, source);
-  const sph_masks *masks = masks_of(pattern, target, source);
-  const sph_matrix_loops *loops = sph_matrix_loop(sim->isa, sim->kernel_number, sim->dim);
-  sph_matrix_function *loop = matrix->vector ? loops->vector : loops->scalar;
+  const sph_masks *masks = sim->group[source]->wall ? NULL : masks_of(pattern, target, source);
   sph_pair_task pairs = pairs_of(sim, target, source, list);
   pairs.constants = constants;
   const long row = pattern->base[target] * matrix->components;
   const sph_matrix_task task = {.pairs = &pairs,
-                                .first = masks->first,
-                                .mask = masks->mask,
+                                .first = masks ? masks->first : NULL,
+                                .mask = masks ? masks->mask : NULL,
+                                .vector = matrix->vector,
                                 .targets = e->view[target].n,
                                 .start = matrix->A.start + row,
                                 .diagonal = matrix->A.diagonal + row,
@@ -319,17 +320,40 @@ void sph_sim_matrix_fill(sph_evaluation *e, const sph_pattern *pattern, sph_matr
                          double gamma, int coupling)
 {
   const sph_sim *sim = e->sim;
+  const sph_matrix_loops *loops = sph_matrix_loop(sim->isa, sim->kernel_number, sim->dim);
   start(sim, pattern, matrix);
   for (int g = 0; g < sim->groups; g++) {
     if (sim->group[g]->wall) continue;
     for (int s = 0; s < sim->groups; s++) {
       if (sim->group[s]->wall) continue;
       const matrix_constants k = constants_of(e, g, s, gamma, coupling);
-      fill_fluid(e, pattern, matrix, g, s, &k);
+      loop_over(e, pattern, matrix, matrix->vector ? loops->vector : loops->scalar, g, s, &k);
     }
     fill_walls(e, pattern, matrix, g, gamma, coupling);
   }
   matrix->values++;
+}
+
+void sph_sim_matrix_add_tiles(sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
+                              double gamma, int unknown, int per_volume)
+{
+  const sph_sim *sim = e->sim;
+  sph_matrix_function *loop = sph_tile_loop_matrix(sim->isa, sim->kernel_number, sim->dim);
+  memset(pattern->filled, 0, (size_t)pattern->rows * sizeof *pattern->filled);
+  for (int g = 0; g < sim->groups; g++)
+    for (int s = 0; s < sim->groups && !sim->group[g]->wall; s++) {
+      fluid_constants fluid =
+          sph_sim_interaction_constants(sim, e->part, sim->group[g], sim->group[s]);
+      fluid.terms &= ~(unsigned)SPH_PAIR_TERMS;
+      tile_constants k = sph_sim_interaction_tile(e, &fluid, g, s);
+      k.unknown = unknown;
+      k.per_volume = per_volume;
+      k.gamma = gamma;
+      int seen = unknown == TILE_VELOCITY      ? (fluid.terms & SPH_NO_SLIP) != 0
+                 : unknown == TILE_TEMPERATURE ? k.isothermal
+                                               : 0; /* a wall mirrors scalars */
+      if (!sim->group[s]->wall || seen) loop_over(e, pattern, matrix, loop, g, s, &k);
+    }
 }
 
 void sph_sim_matrix_pattern_free(sph_pattern *pattern)

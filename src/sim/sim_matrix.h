@@ -29,7 +29,12 @@ typedef struct sph_pattern {
 } sph_pattern;
 
 /* Which coupling a matrix holds. */
-enum sph_coupling { SPH_COUPLING_VISCOSITY, SPH_COUPLING_CONDUCTION, SPH_COUPLING_DIFFUSION };
+enum sph_coupling {
+  SPH_COUPLING_VISCOSITY,
+  SPH_COUPLING_CONDUCTION,
+  SPH_COUPLING_DIFFUSION,
+  SPH_COUPLING_NONE /* of built-in terms */
+};
 
 typedef struct sph_matrix {
   int vector;                         /* of velocities whose components are coupled */
@@ -51,6 +56,11 @@ int sph_sim_matrix_shape(sph_sim *sim, const sph_pattern *pattern, sph_matrix *m
  * 2 x_wall - x_i: that makes 2 gamma sum_w k_iw on the diagonal. */
 void sph_sim_matrix_fill(sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
                          double gamma, int coupling);
+
+/* Adds gamma times what the jacobian_pair of the registered terms of e->part give for an unknown,
+ * enum tile_unknown; a scalar may be exchanged per volume. */
+void sph_sim_matrix_add_tiles(sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
+                              double gamma, int unknown, int per_volume);
 
 void sph_sim_matrix_pattern_free(sph_pattern *pattern);
 void sph_sim_matrix_free(sph_matrix *matrix);

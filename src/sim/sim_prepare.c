@@ -191,7 +191,7 @@ static int make_terms(sph_sim *sim)
   sim->loop_terms = bits;
   sim->constants = (fluid_constants){.terms = bits};
   sph_sim_prepare_h(sim);
-  sim->needs_temperature = (bits & SPH_CONDUCTION) != 0;
+  sim->needs_temperature = (bits & SPH_CONDUCTION) || sph_sim_implicit_heats(sim);
   int status = sph_sim_parts_make(sim);
   sim->fluid_sums = bits & SPH_RARE ? SPH_FLUID_SUMS_ALL : SPH_FLUID_SUMS;
   if (sim->part[SPH_WHOLE].tiles) sim->fluid_sums = SPH_SUM_SCALAR + terms->scalars;
@@ -350,6 +350,7 @@ int sph_sim_prepare(sph_sim *sim)
   if (!status) status = check_groups(sim);
   if (!status) status = check_values(sim);
   if (!status) status = check_terms(sim);
+  if (!status) status = sph_sim_implicit_check(sim);
   if (!status) start_walls(sim);
   if (!status) status = make_terms(sim);
   if (!status) status = start_groups(sim);

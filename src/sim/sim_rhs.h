@@ -63,6 +63,9 @@ void sph_sim_interaction_add(sph_evaluation *e, int target, int source);
 void sph_sim_interaction_tiles(sph_evaluation *e, int target, int source);
 fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part *part,
                                               const sph_group *target, const sph_group *source);
+/* What tiles of (target <- source) hold, beside built-in terms with these constants. */
+tile_constants sph_sim_interaction_tile(const sph_evaluation *e, const fluid_constants *fluid,
+                                        int target, int source);
 /* Does density diffuse between them?  Not between a fluid and another, or a wall, of different
  * reference density or sound speed. */
 int sph_sim_interaction_same_fluid(const sph_group *target, const sph_group *source);

@@ -87,6 +87,32 @@ static int forget(sph_term_set *set)
   return SPH_OK;
 }
 
+int sph_term_part_changes(const sph_term *term, unsigned *changes, sph_error *error)
+{
+  static const char *const names[] = {"velocity", "energy", "scalar"};
+  const char *at = term->implicit ? term->implicit : "";
+  unsigned found = 0;
+  for (size_t n; *(at += strspn(at, " ,")); at += n) {
+    unsigned k = 0;
+    n = strcspn(at, " ,");
+    while (k < 3 && (strlen(names[k]) != n || strncmp(at, names[k], n) != 0)) k++;
+    if (k == 3)
+      return sph_error_set(error, SPH_ERR_ARGUMENT,
+                           "term %s: implicit \"%.60s\"; known: velocity, energy, scalar",
+                           term->name, at);
+    found |= 1u << k;
+  }
+  if (found && !term->jacobian_body && !term->jacobian_pair)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term %s: implicit, but without jacobian_body and jacobian_pair",
+                         term->name);
+  if ((found & SPH_CHANGES_SCALAR) && !term->scalar.name)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: implicit scalar, but it has none",
+                         term->name);
+  if (changes) *changes = found;
+  return SPH_OK;
+}
+
 int sph_term_part_set(sph_term_set *set, const char *term, const char *part, sph_error *error)
 {
   int number = part_number(part, error), found = 0;
@@ -102,7 +128,11 @@ int sph_term_part_set(sph_term_set *set, const char *term, const char *part, sph
   }
   for (int k = 0; k < set->called; k++) {
     if (strcmp(term, set->call[k].name)) continue;
-    if (number == SPH_TERM_IMPLICIT) return not_implicit(term, error);
+    if (number == SPH_TERM_IMPLICIT && !set->call[k].changes)
+      return sph_error_set(error, SPH_ERR_ARGUMENT,
+                           "%s cannot be implicit: it says neither what it changes (implicit) nor "
+                           "how (jacobian_body, jacobian_pair)",
+                           term);
     set->call[k].part = number;
     found = 1;
   }

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "term_part.h"
+
 static int not_below_zero(const char *term, const char *name, double value, sph_error *error)
 {
   if (isfinite(value) && value >= 0) return SPH_OK;
@@ -240,7 +242,8 @@ static int check_called(const sph_term_set *set, const sph_term *term, sph_error
   if (set->called == SPH_CALLED_TERMS_MAX)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: more than %d terms with functions",
                          term->name, SPH_CALLED_TERMS_MAX);
-  return term->scalar.name ? check_scalar(set, term, error) : SPH_OK;
+  int status = sph_term_part_changes(term, NULL, error);
+  return !status && term->scalar.name ? check_scalar(set, term, error) : status;
 }
 
 static int add_called(sph_term_set *set, const sph_term *term, sph_error *error)
@@ -256,6 +259,8 @@ static int add_called(sph_term_set *set, const sph_term *term, sph_error *error)
   snprintf(kept->adds, sizeof kept->adds, "%s", term->adds ? term->adds : "");
   kept->term.adds = term->adds ? kept->adds : NULL;
   kept->term.form = NULL;
+  sph_term_part_changes(term, &kept->changes, error);
+  kept->term.implicit = NULL; /* as read in changes */
   kept->scalar = term->scalar.name ? keep_scalar(set, &term->scalar) : -1;
   if (kept->scalar >= 0) {
     kept->term.scalar.name = set->scalar[kept->scalar].name;

@@ -12,12 +12,16 @@ enum { SPH_CALLED_TERMS_MAX = 32, SPH_TERM_NAME_MAX = 64, SPH_TERM_READS_MAX = 2
  * which has a loop of its own. */
 enum { SPH_UNIFORM = 1 << 30, SPH_DRAG = 1 << 29 };
 
+/* What an implicit term of the user's own changes. */
+enum sph_term_changes { SPH_CHANGES_VELOCITY = 1, SPH_CHANGES_ENERGY = 2, SPH_CHANGES_SCALAR = 4 };
+
 /* A term with callbacks, and its strings. */
 typedef struct sph_called_term {
   sph_term term;
   char name[SPH_TERM_NAME_MAX], reads[SPH_TERM_READS_MAX], adds[SPH_TERM_READS_MAX];
-  int scalar; /* its number among the scalars, or -1 */
-  int part;   /* enum sph_term_part_number */
+  int scalar;       /* its number among the scalars, or -1 */
+  int part;         /* enum sph_term_part_number */
+  unsigned changes; /* where it may be implicit: enum sph_term_changes */
 } sph_called_term;
 
 typedef struct sph_scalar_kept {

@@ -57,7 +57,12 @@ typedef struct tile_constants {
   unsigned adds;   /* enum sph_tile_add that any of them adds to */
   int terms;
   sph_tile_term term[SPH_TILE_TERMS];
+  /* Matrices of implicit stages: which unknown, enum tile_unknown. */
+  int unknown, per_volume;
+  double gamma;
 } tile_constants;
+
+enum tile_unknown { TILE_VELOCITY, TILE_TEMPERATURE, TILE_SCALAR };
 
 /* The arrays of one tile, a row a source: on the stack of a thread, about 20 KiB of it in use. */
 typedef struct tile_rows {
@@ -150,9 +155,8 @@ BODY void tile_clear(unsigned adds, tile_rows *rows, int n)
   if (adds & SPH_TILE_DU) memset(rows->du, 0, bytes);
 }
 
-/* The registered terms, each on rows 0 .. n - 1. */
-static __attribute__((noinline, unused)) void tile_call(int dim, const tile_constants *k,
-                                                        tile_rows *rows, int n)
+/* What users see of rows 0 .. n - 1. */
+BODY sph_tile tile_open(int dim, const tile_constants *k, tile_rows *rows, int n)
 {
   const int no_slip = (k->fluid.terms & SPH_NO_SLIP) != 0;
   sph_tile tile = {.dim = dim,
@@ -173,23 +177,36 @@ static __attribute__((noinline, unused)) void tile_call(int dim, const tile_cons
                    .along_v = k->adds & SPH_TILE_ALONG_V ? (double *)rows->along_v : NULL,
                    .drho = k->adds & SPH_TILE_DRHO ? (double *)rows->drho : NULL,
                    .du = k->adds & SPH_TILE_DU ? (double *)rows->du : NULL};
-  tile_clear(k->adds, rows, n);
   for (int d = 0; d < dim; d++) {
     tile.r[d] = (const double *)rows->r[d];
     tile.v[d] = (const double *)rows->v[d];
     tile.v_viscous[d] = no_slip ? (const double *)rows->v_viscous[d] : tile.v[d];
   }
+  return tile;
+}
+
+/* The fields that one term reads, and its scalar. */
+BODY void tile_fields(const sph_tile_term *one, tile_rows *rows, sph_tile *tile)
+{
+  for (int f = 0; f < one->reads; f++) {
+    tile->i[f] = (const double *)rows->i[one->read[f]];
+    tile->j[f] = (const double *)rows->j[one->read[f]];
+  }
+  int s = one->scalar;
+  tile->s_i = s < 0 ? NULL : (const double *)rows->i[SPH_TILE_SCALAR + s];
+  tile->s_j = s < 0 ? NULL : (const double *)rows->j[SPH_TILE_SCALAR + s];
+  tile->ds = s < 0 ? NULL : (double *)rows->ds[s];
+}
+
+/* The registered terms, each on rows 0 .. n - 1. */
+static __attribute__((noinline, unused)) void tile_call(int dim, const tile_constants *k,
+                                                        tile_rows *rows, int n)
+{
+  sph_tile tile = tile_open(dim, k, rows, n);
+  tile_clear(k->adds, rows, n);
   for (int q = 0; q < k->terms; q++) {
-    const sph_tile_term *one = &k->term[q];
-    for (int f = 0; f < one->reads; f++) {
-      tile.i[f] = (const double *)rows->i[one->read[f]];
-      tile.j[f] = (const double *)rows->j[one->read[f]];
-    }
-    int s = one->scalar;
-    tile.s_i = s < 0 ? NULL : (const double *)rows->i[SPH_TILE_SCALAR + s];
-    tile.s_j = s < 0 ? NULL : (const double *)rows->j[SPH_TILE_SCALAR + s];
-    tile.ds = s < 0 ? NULL : (double *)rows->ds[s];
-    one->term->pair(one->term, &tile);
+    tile_fields(&k->term[q], rows, &tile);
+    k->term[q].term->pair(k->term[q].term, &tile);
   }
 }
 
