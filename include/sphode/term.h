@@ -84,11 +84,11 @@ typedef struct sph_scalar {
  *
  * They decide how fast a stage converges, not to what: leave out what is small or has the other
  * sign.  The velocity, temperature and scalar that the particles have are those of the iterate. */
-typedef struct sph_jacobian {
+typedef struct sph_term_jacobian {
   double *v; /* [1/s] the same in all directions */
   double *T; /* [W/(kg K)] */
   double *s; /* [1/s] of the term's own scalar */
-} sph_jacobian;
+} sph_term_jacobian;
 
 typedef struct sph_term sph_term;
 struct sph_term {
@@ -127,8 +127,9 @@ struct sph_term {
    * that fast.  jacobian_pair is called from several threads at once. */
   const char *implicit;
   void (*jacobian_body)(const sph_term *term, const sph_particles *particles,
-                        const sph_jacobian *jacobian);
-  void (*jacobian_pair)(const sph_term *term, const sph_tile *tile, const sph_jacobian *jacobian);
+                        const sph_term_jacobian *jacobian);
+  void (*jacobian_pair)(const sph_term *term, const sph_tile *tile,
+                        const sph_term_jacobian *jacobian);
   /* [J/kg] for the energy balance; NULL: none */
   double (*potential)(const sph_term *term, const double x[3]);
   void *ctx;            /* the user's; borrowed unless free is given */

@@ -307,9 +307,9 @@ static void add_bodies(const solving *s, const unknown *u, const sph_evaluation 
   const double gamma = s->stage->gamma;
   double *decay = own->b; /* [n], not in use yet */
   memset(decay, 0, (size_t)s->z[g].n * sizeof *decay);
-  const sph_jacobian jacobian = {.v = u->number == VELOCITY ? decay : NULL,
-                                 .T = u->number == ENERGY ? decay : NULL,
-                                 .s = u->number >= SCALAR ? decay : NULL};
+  const sph_term_jacobian jacobian = {.v = u->number == VELOCITY ? decay : NULL,
+                                      .T = u->number == ENERGY ? decay : NULL,
+                                      .s = u->number >= SCALAR ? decay : NULL};
   for (int k = 0; k < terms->called; k++) {
     const sph_called_term *call = &terms->call[k];
     if (!(u->called >> k & 1) || !call->term.jacobian_body) continue;

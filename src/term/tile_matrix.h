@@ -1,5 +1,5 @@
 /* tile_matrix.h -- what registered pair terms give to the matrices of implicit stages
- * (sph_jacobian), tile by tile.
+ * (sph_term_jacobian), tile by tile.
  *
  * The built-in terms have made the entries (matrix_loops.c); to each, in the same order, is added
  * - gamma w_i k, to the diagonal gamma w_i k, w = m or V.  Beside walls, without masks, twice that
@@ -28,9 +28,9 @@ static __attribute__((noinline, unused)) void tile_jacobian(int dim, tile_matrix
   sph_tile tile = tile_open(dim, k, &it->rows, n);
   double *to = (double *)it->rows.push;
   memset(to, 0, (size_t)n * sizeof(vec));
-  const sph_jacobian jacobian = {.v = k->unknown == TILE_VELOCITY ? to : NULL,
-                                 .T = k->unknown == TILE_TEMPERATURE ? to : NULL,
-                                 .s = k->unknown == TILE_SCALAR ? to : NULL};
+  const sph_term_jacobian jacobian = {.v = k->unknown == TILE_VELOCITY ? to : NULL,
+                                      .T = k->unknown == TILE_TEMPERATURE ? to : NULL,
+                                      .s = k->unknown == TILE_SCALAR ? to : NULL};
   for (int q = 0; q < k->terms; q++) {
     const sph_term *term = k->term[q].term;
     if (!term->jacobian_pair) continue;

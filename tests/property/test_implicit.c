@@ -289,7 +289,8 @@ static void diffuse(const sph_term *term, const sph_tile *t)
     t->ds[k] += 2 * it->D * t->V[k] * (t->s_i[k] - t->s_j[k]) * t->F[k];
 }
 
-static void diffuse_jacobian(const sph_term *term, const sph_tile *t, const sph_jacobian *jacobian)
+static void diffuse_jacobian(const sph_term *term, const sph_tile *t,
+                             const sph_term_jacobian *jacobian)
 {
   const dye *it = term->ctx;
   for (long k = 0; k < t->n; k++) jacobian->s[k] -= 2 * it->D * t->V[k] * t->F[k];
@@ -304,7 +305,7 @@ static int react(const sph_term *term, const sph_particles *p)
 }
 
 static void react_jacobian(const sph_term *term, const sph_particles *p,
-                           const sph_jacobian *jacobian)
+                           const sph_term_jacobian *jacobian)
 {
   const dye *it = term->ctx;
   for (long i = 0; i < p->n; i++)
@@ -339,7 +340,7 @@ static int breathe(const sph_term *term, const sph_particles *p)
 }
 
 static void breathe_jacobian(const sph_term *term, const sph_particles *p,
-                             const sph_jacobian *jacobian)
+                             const sph_term_jacobian *jacobian)
 {
   const double c_v = *(const double *)term->ctx;
   for (long i = 0; i < p->n; i++) {
@@ -355,7 +356,7 @@ static void rub(const sph_term *term, const sph_tile *t)
     t->along_v[k] += friction * t->m[k] / (t->i[0][k] * t->j[0][k]) * t->F[k];
 }
 
-static void rub_jacobian(const sph_term *term, const sph_tile *t, const sph_jacobian *jacobian)
+static void rub_jacobian(const sph_term *term, const sph_tile *t, const sph_term_jacobian *jacobian)
 {
   (void)term;
   for (long k = 0; jacobian->v && k < t->n; k++)
@@ -448,7 +449,7 @@ static int decay(const sph_term *term, const sph_particles *p)
 }
 
 static void decay_jacobian(const sph_term *term, const sph_particles *p,
-                           const sph_jacobian *jacobian)
+                           const sph_term_jacobian *jacobian)
 {
   const dye *it = term->ctx;
   for (long i = 0; i < p->n; i++) jacobian->s[i] += it->k;
