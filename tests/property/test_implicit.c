@@ -529,6 +529,8 @@ int main(void)
       cmocka_unit_test(drag),
       cmocka_unit_test(everything),
       cmocka_unit_test(who_is_alone_stays_out),
+      cmocka_unit_test(dust_loosens_nothing),
+      cmocka_unit_test(pairs_come_back),
       cmocka_unit_test(registered_scalar),
       cmocka_unit_test(registered_wind),
       cmocka_unit_test(scalar_decays),
