@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "sphode/adjoint.h"
 #include "sphode/base.h"
 #include "sphode/boundary.h"
 #include "sphode/case.h"

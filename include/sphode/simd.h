@@ -47,9 +47,9 @@ BODY vec v_and(vec_mask m, vec a) { return m ? a : 0; }
 BODY vec v_select(vec_mask m, vec a, vec b) { return m ? a : b; }
 BODY vec v_max(vec a, vec b) { return v_less(b, a) ? a : b; }
 BODY vec v_min(vec a, vec b) { return v_less(a, b) ? a : b; }
-BODY vec v_sqrt(vec a) /* without slope at 0 */
+BODY vec v_sqrt(vec a) /* without slope at 0: where products of derivatives are left alone */
 {
-  double root = sqrt(__real__ a);
+  double root = __real__ a < 1e-150 ? 0 : sqrt(__real__ a);
   return __builtin_complex(root, root > 0 ? __imag__ a / (2 * root) : 0);
 }
 

@@ -17,7 +17,7 @@
 
 /* All records are those of a pair loop; _d: their derivatives, of the same shape. */
 typedef struct sph_tangent_task {
-  const double *target, *target_d; /* [targets][target_stride] */
+  const double *target, *target_d; /* [targets][target_stride]; _d: tangent only */
   const double *source, *source_d; /* [n_source][source_stride] */
   long target_stride, source_stride;
   long targets;
@@ -29,11 +29,14 @@ typedef struct sph_tangent_task {
   int kernel;
   unsigned terms; /* of fluid_constants, and its numbers */
   const double *numbers, *numbers_d;
-  double *const *sum, *const *sum_d; /* [sums][targets] added to; sum NULL: values not wanted */
-  /* transposed only: */
-  const double *const *weight;        /* [sums][targets] of the targets; NULL: none */
-  const double *const *weight_source; /* [sums][n_source] of the sources; NULL: none */
-  double *bar;                        /* [targets][target_stride] added to */
+  double *const *sum_d; /* tangent: [sums][targets] added to */
+  /* Transposed: weights of the sums, [sums][targets] and [sums][n_source]; NULL: not a target, or
+   * not a source, of the other.  Constants where the target is a source. */
+  const double *const *weight, *const *weight_source;
+  unsigned terms_source;
+  const double *numbers_source;
+  unsigned active; /* bit s: slot s matters */
+  double *bar;     /* [targets][target_stride] added to */
 } sph_tangent_task;
 
 typedef void sph_tangent_function(const sph_tangent_task *task, long begin, long end); /* blocks */
@@ -59,12 +62,11 @@ BODY void tangent_shift(const vec *home, const double *shift, int dim, int slots
   for (int s = 0; s < slots; s++) to[s] = s < dim ? home[s] - shift[s] : home[s];
 }
 
-/* Is a source within reach of i? */
-BODY int tangent_near(const sph_tangent_task *t, int dim, const vec *i, const double *source)
+BODY double tangent_distance2(int dim, const vec *i, const double *source)
 {
   double r2 = 0;
   for (int d = 0; d < dim; d++) r2 += (__real__ i[d] - source[d]) * (__real__ i[d] - source[d]);
-  return r2 <= t->reach2;
+  return r2;
 }
 
 /* Target n of block b. */
@@ -79,15 +81,12 @@ BODY void tangent_target(sph_pair_body *body, const sph_tangent_task *t, const v
     tangent_shift(home, t->shift[run.image], dim, slots, i);
     for (long k = run.start; k < (long)run.start + (long)run.count; k++) {
       const double *source = t->source + k * t->source_stride;
-      if (!tangent_near(t, dim, i, source)) continue;
+      if (tangent_distance2(dim, i, source) > t->reach2) continue;
       tangent_record(source, t->source_d + k * t->source_stride, slots, j);
       body(dim, constants, i, j, sum);
     }
   }
-  for (int s = 0; s < sums; s++) {
-    if (t->sum) t->sum[s][n] += __real__ sum[s];
-    t->sum_d[s][n] += __imag__ sum[s] / tangent_step;
-  }
+  for (int s = 0; s < sums; s++) t->sum_d[s][n] += __imag__ sum[s] / tangent_step;
 }
 
 BODY void tangent_loop(sph_pair_body *body, const sph_tangent_task *t, const void *constants,
@@ -96,6 +95,73 @@ BODY void tangent_loop(sph_pair_body *body, const sph_tangent_task *t, const voi
   for (long b = begin; b < end; b++)
     for (long n = b * t->lanes; n < (b + 1) * t->lanes && n < t->targets; n++)
       tangent_target(body, t, constants, b, n, dim, slots, sums);
+}
+
+/* bar += (d sums/d which)^T weight, slot by slot; which is i or j; both: i and j together. */
+BODY void transposed_slots(sph_pair_body *body, const void *constants, unsigned active,
+                           const vec *i, const vec *j, vec *which, vec *both, const double *weight,
+                           int dim, int slots, int sums, double *bar)
+{
+  for (int s = 0; s < slots; s++) {
+    vec sum[SPH_PAIR_SUMS];
+    double slope = 0;
+    if (!(active >> s & 1)) continue;
+    for (int q = 0; q < sums; q++) sum[q] = 0;
+    const double kept = __real__ which[s];
+    which[s] = tangent_number(kept, 1);
+    if (both) both[s] = which[s];
+    body(dim, constants, i, j, sum);
+    which[s] = kept;
+    if (both) both[s] = kept;
+    for (int q = 0; q < sums; q++) slope += weight[q] * __imag__ sum[q];
+    bar[s] += slope / tangent_step;
+  }
+}
+
+/* Slots of a record alone. */
+BODY void transposed_record(const double *record, int slots, vec *to)
+{
+  for (int s = 0; s < slots; s++) to[s] = record[s];
+}
+
+BODY void transposed_target(sph_pair_body *body, const sph_tangent_task *t, const void *constants,
+                            const void *constants_source, long b, long n, int dim, int slots,
+                            int sums)
+{
+  vec home[SPH_PAIR_SLOTS], i[SPH_PAIR_SLOTS], j[SPH_PAIR_SLOTS];
+  double weight[SPH_PAIR_SUMS], bar[SPH_PAIR_SLOTS] = {0};
+  transposed_record(t->target + n * t->target_stride, slots, home);
+  for (long r = t->first[b]; r < t->first[b + 1]; r++) {
+    const sph_run run = t->runs[r];
+    tangent_shift(home, t->shift[run.image], dim, slots, i);
+    for (long k = run.start; k < (long)run.start + (long)run.count; k++) {
+      const double *source = t->source + k * t->source_stride;
+      if (tangent_distance2(dim, i, source) > t->reach2) continue;
+      const int self = source == t->target + n * t->target_stride; /* moves with itself */
+      transposed_record(source, slots, j);
+      if (t->weight) {
+        for (int q = 0; q < sums; q++) weight[q] = t->weight[q][n];
+        transposed_slots(body, constants, t->active, i, j, i, self ? j : NULL, weight, dim, slots,
+                         sums, bar);
+      }
+      if (t->weight_source && !self) {
+        for (int q = 0; q < sums; q++) weight[q] = t->weight_source[q][k];
+        transposed_slots(body, constants_source, t->active, j, i, i, NULL, weight, dim, slots, sums,
+                         bar);
+      }
+    }
+  }
+  for (int s = 0; s < slots && s < t->target_stride; s++)
+    t->bar[n * t->target_stride + s] += bar[s];
+}
+
+BODY void transposed_loop(sph_pair_body *body, const sph_tangent_task *t, const void *constants,
+                          const void *constants_source, long begin, long end, int dim, int slots,
+                          int sums)
+{
+  for (long b = begin; b < end; b++)
+    for (long n = b * t->lanes; n < (b + 1) * t->lanes && n < t->targets; n++)
+      transposed_target(body, t, constants, constants_source, b, n, dim, slots, sums);
 }
 #endif
 

@@ -15,19 +15,21 @@ static const struct {
   const char *name;
   unsigned bits;
   size_t offset; /* in sph_term_set */
+  unsigned acts;
 } term_numbers[] = {
-    {"viscosity-artificial.alpha", SPH_ARTIFICIAL, offsetof(sph_term_set, alpha)},
-    {"viscosity-artificial.beta", SPH_ARTIFICIAL, offsetof(sph_term_set, beta)},
-    {"viscosity-signal.alpha", SPH_SIGNAL, offsetof(sph_term_set, signal_alpha)},
-    {"viscosity-signal.beta", SPH_SIGNAL, offsetof(sph_term_set, signal_beta)},
-    {"conductivity-artificial.alpha", SPH_CONDUCTIVITY, offsetof(sph_term_set, alpha_u)},
-    {"delta.delta", SPH_DIFFUSION, offsetof(sph_term_set, delta)},
-    {"xsph.epsilon", SPH_XSPH, offsetof(sph_term_set, epsilon)},
-    {"drag.K", SPH_DRAG, offsetof(sph_term_set, drag_K)},
-    {"drag.rate", SPH_DRAG, offsetof(sph_term_set, drag_rate)}, /* 1/stopping time */
-    {"gravity.x", 0, offsetof(sph_term_set, g)},
-    {"gravity.y", 0, offsetof(sph_term_set, g) + sizeof(double)},
-    {"gravity.z", 0, offsetof(sph_term_set, g) + 2 * sizeof(double)},
+    {"viscosity-artificial.alpha", SPH_ARTIFICIAL, offsetof(sph_term_set, alpha), 0},
+    {"viscosity-artificial.beta", SPH_ARTIFICIAL, offsetof(sph_term_set, beta), 0},
+    {"viscosity-signal.alpha", SPH_SIGNAL, offsetof(sph_term_set, signal_alpha), 0},
+    {"viscosity-signal.beta", SPH_SIGNAL, offsetof(sph_term_set, signal_beta), 0},
+    {"conductivity-artificial.alpha", SPH_CONDUCTIVITY, offsetof(sph_term_set, alpha_u), 0},
+    {"delta.delta", SPH_DIFFUSION, offsetof(sph_term_set, delta), SPH_ACTS_RATES},
+    {"xsph.epsilon", SPH_XSPH, offsetof(sph_term_set, epsilon), 0},
+    {"drag.K", SPH_DRAG, offsetof(sph_term_set, drag_K), 0},
+    {"drag.rate", SPH_DRAG, offsetof(sph_term_set, drag_rate), 0}, /* 1/stopping time */
+    {"gravity.x", 0, offsetof(sph_term_set, g), SPH_ACTS_WALLS | SPH_ACTS_RATES},
+    {"gravity.y", 0, offsetof(sph_term_set, g) + sizeof(double), SPH_ACTS_WALLS | SPH_ACTS_RATES},
+    {"gravity.z", 0, offsetof(sph_term_set, g) + 2 * sizeof(double),
+     SPH_ACTS_WALLS | SPH_ACTS_RATES},
 };
 enum { TERM_NUMBERS = sizeof term_numbers / sizeof *term_numbers };
 
@@ -99,6 +101,7 @@ static void offer_group(search *s, sph_group *group)
     if (!offer(s, value, scale > 0 ? scale : 1, "%s.%s", group->name, eos_numbers[k].name))
       continue;
     s->found->eos_member = eos_numbers[k].offset;
+    s->found->acts = SPH_ACTS_ALL;
     for (int g = 0; g < s->sim->groups; g++)
       s->found->shares[g] = same_eos(&s->sim->group[g]->eos, &group->eos) != 0;
   }
@@ -107,17 +110,22 @@ static void offer_group(search *s, sph_group *group)
 static void look(search *s)
 {
   sph_sim *sim = s->sim;
-  if (offer(s, &sim->h, 0, "%s%s", "h", "")) s->found->is_h = 1;
+  if (offer(s, &sim->h, 0, "%s%s", "h", "")) {
+    s->found->is_h = 1;
+    s->found->acts = SPH_ACTS_RATES; /* walls take ratios of sums */
+  }
   for (int k = 0; k < TERM_NUMBERS; k++) {
     double *value = number_of(&sim->terms, term_numbers[k].offset);
     int there = term_numbers[k].bits ? (sim->loop_terms & term_numbers[k].bits) != 0
                                      : sim->part[SPH_WHOLE].gravity;
     if (term_numbers[k].bits == SPH_DRAG && *value == 0) continue; /* it is the other one */
-    if (there) offer(s, value, 1, "%s%s", term_numbers[k].name, "");
+    if (there && offer(s, value, 1, "%s%s", term_numbers[k].name, ""))
+      s->found->acts = term_numbers[k].acts;
   }
   for (int k = 0; k < sim->terms.called; k++)
-    if (sim->terms.call[k].term.omega != 0)
-      offer(s, &sim->terms.call[k].term.omega, 1, "%s.%s", sim->terms.call[k].name, "omega");
+    if (sim->terms.call[k].term.omega != 0 &&
+        offer(s, &sim->terms.call[k].term.omega, 1, "%s.%s", sim->terms.call[k].name, "omega"))
+      s->found->acts = SPH_ACTS_RATES;
   for (int g = 0; g < sim->groups; g++) offer_group(s, sim->group[g]);
 }
 
@@ -141,7 +149,9 @@ int sph_sim_parameter_find(sph_sim *sim, const char *name, sph_parameter *parame
 
 void sph_sim_parameter_own(const char *name, double *value, sph_parameter *parameter)
 {
-  *parameter = (sph_parameter){.value = value, .scale = *value != 0 ? fabs(*value) : 1};
+  *parameter = (sph_parameter){.value = value,
+                               .scale = *value != 0 ? fabs(*value) : 1,
+                               .acts = SPH_ACTS_ALL};
   snprintf(parameter->name, sizeof parameter->name, "%s", name);
 }
 

@@ -5,10 +5,14 @@
 
 enum { SPH_PARAMETER_NAME_MAX = 2 * SPH_NAME_MAX };
 
+/* Where a parameter acts besides the constants of pair loops: bits. */
+enum { SPH_ACTS_EOS = 1, SPH_ACTS_WALLS = 2, SPH_ACTS_RATES = 4, SPH_ACTS_ALL = 7 };
+
 typedef struct sph_parameter {
   char name[SPH_PARAMETER_NAME_MAX];
-  double *value;     /* where it lives; NULL: none, nothing changes */
-  double scale;      /* its size: |value|, or what stands for that of a zero */
+  double *value; /* where it lives; NULL: none, nothing changes */
+  double scale;  /* its size: |value|, or what stands for that of a zero */
+  unsigned acts;
   int is_h;          /* the smoothing length, which others are made of */
   size_t eos_member; /* > 0: offset in sph_eos, of all groups that share one equation of state */
   unsigned char shares[SPH_SETS_MAX]; /* whether group g is one of them */

@@ -8,6 +8,7 @@
 #include "eos_table.h"
 #include "gradient_pair.h"
 #include "memory.h"
+#include "sim_transposed.h"
 #include "tangent_loops.h"
 #include "wall_pair.h"
 
@@ -87,6 +88,7 @@ void sph_sim_tangent_free(sph_tangent *t)
   sph_memory_free(t->body);
   sph_memory_free(t->drag);
   sph_memory_free(t->beside_rate);
+  sph_sim_transposed_free(t->transposed);
   sph_memory_free(t);
 }
 
@@ -254,18 +256,24 @@ static int walls(sph_tangent *t)
   return SPH_OK;
 }
 
+/* The sums of the gradient matrix, which the next loops overwrite. */
+static void keep_matrix(const sph_tangent *t, int g)
+{
+  const sph_sorted *sorted = &t->sim->sorted[g];
+  for (int q = 0; q < gradient_sums(t->sim->dim) - t->sim->dim; q++)
+    memcpy(t->group[g].matrix[q], sorted->sum[q], (size_t)sorted->room * sizeof(double));
+}
+
 static int gradients(sph_tangent *t)
 {
   sph_sim *sim = t->sim;
   int status = sph_sim_gradients(&t->e);
   if (status || !t->e.part->gradients || t->lagged) return status;
-  const int dim = sim->dim, sums = gradient_sums(dim);
+  const int dim = sim->dim;
   for (int g = 0; g < sim->groups; g++) {
     if (sim->group[g]->wall || sim->group[g]->eos.dust) continue;
     const int *order = sph_neighbors_order(sim->neighbors, g);
-    for (int q = 0; q < sums - dim; q++)
-      memcpy(t->group[g].matrix[q], sim->sorted[g].sum[q],
-             (size_t)sim->sorted[g].room * sizeof(double));
+    keep_matrix(t, g);
     clear_sums(t, g);
     for (int s = 0; s < sim->groups; s++)
       if (sph_sim_interaction_same_fluid(sim->group[g], sim->group[s]))
@@ -354,27 +362,30 @@ static int pairs(sph_tangent *t, double *out)
   return status ? status : sph_sim_tangent_call_rates(t, out);
 }
 
-static void start(sph_tangent *t, double *out)
+/* NULL: recorded. */
+static sph_tangent *start(sph_sim *sim, int part, double t, const double *y, int lagged)
 {
-  sph_sim *sim = t->sim;
-  memset(out, 0, (size_t)sim->layout.length * sizeof *out);
-  for (int g = 0; g < sim->groups; g++) {
-    t->e.view[g] = sph_group_data_view(sim->group[g], t->y, t->rate);
-    take_state(t, g);
-  }
+  sph_tangent *own = sph_sim_tangent_get(sim);
+  if (!own) return NULL;
+  own->e = (sph_evaluation){.sim = sim, .t = t, .part = &sim->part[part]};
+  own->y = y;
+  own->s = NULL;
+  own->theta = NULL;
+  own->lagged = lagged;
+  for (int g = 0; g < sim->groups; g++)
+    own->e.view[g] = sph_group_data_view(sim->group[g], y, own->rate);
+  return own;
 }
 
 int sph_sim_tangent(sph_sim *sim, int part, double t, const double *y, const double *s,
                     const sph_parameter *theta, int lagged, double *out)
 {
-  sph_tangent *own = sph_sim_tangent_get(sim);
+  sph_tangent *own = start(sim, part, t, y, lagged);
   if (!own) return sim->error.status;
-  own->e = (sph_evaluation){.sim = sim, .t = t, .part = &sim->part[part]};
-  own->y = y;
   own->s = s;
   own->theta = theta;
-  own->lagged = lagged;
-  start(own, out);
+  memset(out, 0, (size_t)sim->layout.length * sizeof *out);
+  for (int g = 0; g < sim->groups; g++) take_state(own, g);
   int status = sph_sim_walls_move(&own->e);
   if (!status && own->e.part->lists) status = sph_sim_lists_update(&own->e);
   if (!status) status = density(own);
@@ -388,10 +399,40 @@ int sph_sim_tangent(sph_sim *sim, int part, double t, const double *y, const dou
   return status;
 }
 
+int sph_sim_tangent_base(sph_sim *sim, int part, double t, const double *y, int lagged)
+{
+  sph_tangent *own = start(sim, part, t, y, lagged);
+  if (!own) return sim->error.status;
+  int status = sph_sim_walls_move(&own->e);
+  if (!status && own->e.part->lists) status = sph_sim_lists_update(&own->e);
+  if (!status) status = sph_sim_density(&own->e);
+  if (!status) status = sph_sim_material_eos(&own->e);
+  if (!status) status = sph_sim_bodies_add(&own->e);
+  if (!status) status = sph_sim_walls_fill(&own->e);
+  if (!status) status = sph_sim_gradients(&own->e);
+  for (int g = 0; !status && g < sim->groups; g++) {
+    const sph_group *group = sim->group[g];
+    if (group->wall) sph_sim_walls_force(&own->e, g, own->g_minus_a[g]);
+    if (group->wall) continue;
+    if (own->e.part->eos) slopes(own, g);
+    if (own->e.part->gradients && !group->eos.dust) keep_matrix(own, g);
+  }
+  if (!status) status = sph_sim_drag_add(&own->e);
+  return status ? status : sph_sim_pairs_add(&own->e);
+}
+
 int sph_sim_jacobian_times(N_Vector v, N_Vector Jv, double t, N_Vector y, N_Vector fy, void *ctx,
                            N_Vector tmp)
 {
   (void)fy, (void)tmp;
   return sph_sim_tangent(ctx, SPH_WHOLE, t, sph_nvector_data(y), sph_nvector_data(v), NULL, 0,
                          sph_nvector_data(Jv));
+}
+
+int sph_sim_jacobian_transposed_times(N_Vector w, N_Vector Jw, double t, N_Vector y, N_Vector fy,
+                                      void *ctx, N_Vector tmp)
+{
+  (void)fy, (void)tmp;
+  return sph_sim_transposed(ctx, SPH_WHOLE, t, sph_nvector_data(y), sph_nvector_data(w), NULL, 0,
+                            sph_nvector_data(Jw));
 }

@@ -45,6 +45,7 @@ typedef struct sph_tangent {
   double *body;                 /* changes of the rates by body terms and drag, [layout.length] */
   double *drag;                 /* the rates by drag, [layout.length] */
   double *record[SPH_SETS_MAX]; /* copies of the records */
+  struct sph_transposed *transposed; /* sim_transposed.c; NULL until asked for */
 } sph_tangent;
 
 /* The workspace of a simulation, made at its first use.  NULL: recorded. */
@@ -56,6 +57,10 @@ void sph_sim_tangent_free(sph_tangent *tangent); /* NULL is fine */
  * extrapolation to walls and Antuono's gradients are kept fixed.  0, SPH_RETRY or a failure. */
 int sph_sim_tangent(sph_sim *sim, int part, double t, const double *y, const double *s,
                     const sph_parameter *theta, int lagged, double *out);
+
+/* The phases of f itself, and what the maps below read: then no tangent is taken, points are
+ * free. */
+int sph_sim_tangent_base(sph_sim *sim, int part, double t, const double *y, int lagged);
 
 /* ---- its files ---- */
 
@@ -88,7 +93,10 @@ fluid_constants sph_sim_tangent_constants(const sph_tangent *tangent, int pass, 
 void sph_sim_tangent_loop(sph_tangent *tangent, int pass, int target, int source);
 
 /* sim_tangent_call.c: differences.  Along s and theta: */
-int sph_sim_tangent_call_bodies(sph_tangent *tangent);          /* rates by body terms, to body */
+int sph_sim_tangent_call_bodies(sph_tangent *tangent); /* rates by body terms, to body */
+int sph_sim_tangent_call_has_bodies(const sph_tangent *tangent);
+/* ... along one member of sph_point alone, of all particles by its scale: that is put in points. */
+int sph_sim_tangent_call_field(sph_tangent *tangent, int member);
 void sph_sim_tangent_call_phi(sph_tangent *tangent, int walls); /* the user's phi, to the points */
 void sph_sim_tangent_call_tiles(sph_tangent *tangent); /* registered pair terms, to the sums */
 /* Along theta, at fixed state and sums: */

@@ -17,7 +17,18 @@ static const double at[POINTS] = {-2, -1, 1, 2};
 static const double weight[POINTS] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
 static const double STEP = 0x1p-15;
 
-static double theta_step(const sph_tangent *t) { return t->theta ? STEP * t->theta->scale : 0; }
+/* Of formulas that are smooth in the parameter: larger, so that rounding leaves less. */
+static const double SMOOTH = 0x1p-10;
+
+static double theta_step(const sph_tangent *t, double step)
+{
+  return t->theta ? step * t->theta->scale : 0;
+}
+
+static int acts(const sph_tangent *t, unsigned where)
+{
+  return t->theta && (t->theta->acts & where);
+}
 
 /* Sets the parameter beside its value, by a multiple of a step; 0 restores it. */
 static void set_theta(sph_tangent *t, double value, double by)
@@ -34,7 +45,7 @@ static double theta_value(const sph_tangent *t)
 
 double sph_sim_tangent_call_number(sph_tangent *t, const double *number)
 {
-  const double value = theta_value(t), step = theta_step(t);
+  const double value = theta_value(t), step = theta_step(t, SMOOTH);
   double slope = 0;
   for (int k = 0; t->theta && k < POINTS; k++) {
     set_theta(t, value, at[k] * step);
@@ -53,7 +64,7 @@ static double *numbers_of(fluid_constants *k)
 
 fluid_constants sph_sim_tangent_call_constants(sph_tangent *t, int pass, int target, int source)
 {
-  const double value = theta_value(t), step = theta_step(t);
+  const double value = theta_value(t), step = theta_step(t, SMOOTH);
   fluid_constants slope = {0};
   double *sum = numbers_of(&slope);
   for (int k = 0; t->theta && k < POINTS; k++) {
@@ -68,9 +79,9 @@ fluid_constants sph_sim_tangent_call_constants(sph_tangent *t, int pass, int tar
 
 int sph_sim_tangent_call_eos(sph_tangent *t)
 {
-  const double value = theta_value(t), step = theta_step(t);
+  const double value = theta_value(t), step = theta_step(t, STEP);
   int status = SPH_OK;
-  for (int k = 0; t->theta && !status && k < POINTS; k++) {
+  for (int k = 0; acts(t, SPH_ACTS_EOS) && !status && k < POINTS; k++) {
     set_theta(t, value, at[k] * step);
     status = sph_sim_material_eos(&t->e);
     for (int g = 0; !status && g < t->sim->groups; g++) {
@@ -85,17 +96,17 @@ int sph_sim_tangent_call_eos(sph_tangent *t)
     }
   }
   set_theta(t, value, 0);
-  return t->theta && !status ? sph_sim_material_eos(&t->e) : status;
+  return acts(t, SPH_ACTS_EOS) && !status ? sph_sim_material_eos(&t->e) : status;
 }
 
 void sph_sim_tangent_call_walls(sph_tangent *t, int g)
 {
-  const double value = theta_value(t), step = theta_step(t);
+  const double value = theta_value(t), step = theta_step(t, STEP);
   const sph_view *view = &t->e.view[g];
   const sph_term *phi = &t->sim->terms.phi;
   const int powers = t->sim->sorted[g].phi && !phi->phi; /* the user's follows later */
   sph_point *point = t->group[g].point;
-  if (!t->theta) return;
+  if (!acts(t, SPH_ACTS_WALLS)) return;
   for (int k = 0; k < POINTS; k++) {
     set_theta(t, value, at[k] * step);
     sph_sim_walls_finish(&t->e, g);
@@ -113,9 +124,9 @@ void sph_sim_tangent_call_walls(sph_tangent *t, int g)
 
 int sph_sim_tangent_call_rates(sph_tangent *t, double *out)
 {
-  const double value = theta_value(t), step = theta_step(t);
+  const double value = theta_value(t), step = theta_step(t, SMOOTH);
   int status = SPH_OK;
-  for (int k = 0; t->theta && !status && k < POINTS; k++) {
+  for (int k = 0; acts(t, SPH_ACTS_RATES) && !status && k < POINTS; k++) {
     sph_evaluation e = t->e;
     for (int g = 0; g < t->sim->groups; g++)
       e.view[g] = sph_group_data_view(t->sim->group[g], t->y, t->beside_rate);
@@ -199,7 +210,7 @@ static sph_view moved(const sph_tangent *t, int g, double by)
 }
 
 /* Is there a callback among the body terms? */
-static int has_bodies(const sph_tangent *t)
+int sph_sim_tangent_call_has_bodies(const sph_tangent *t)
 {
   const sph_term_set *set = &t->sim->terms;
   for (int k = 0; k < set->called; k++)
@@ -207,13 +218,12 @@ static int has_bodies(const sph_tangent *t)
   return 0;
 }
 
-int sph_sim_tangent_call_bodies(sph_tangent *t)
+static int difference_bodies(sph_tangent *t, double size)
 {
   const sph_sim *sim = t->sim;
-  const double size = size_of(t);
   int status = SPH_OK;
   memset(t->body, 0, (size_t)sim->layout.length * sizeof *t->body);
-  if (!has_bodies(t) || size == 0) return SPH_OK;
+  if (!sph_sim_tangent_call_has_bodies(t) || size == 0) return SPH_OK;
   for (int k = 0; !status && k < POINTS; k++) {
     sph_evaluation e = t->e;
     for (int g = 0; g < sim->groups; g++) e.view[g] = moved(t, g, at[k] * STEP / size);
@@ -222,6 +232,41 @@ int sph_sim_tangent_call_bodies(sph_tangent *t)
       t->body[i] += weight[k] * size / STEP * t->beside_rate[i];
   }
   return status;
+}
+
+int sph_sim_tangent_call_bodies(sph_tangent *t) { return difference_bodies(t, size_of(t)); }
+
+/* The scale of each member of a point that body terms read; 0: of none other. */
+static double scale_of(const sph_tangent *t, int g, long i, size_t member)
+{
+  const sph_sim *sim = t->sim;
+  const sph_view *view = &t->e.view[g];
+  const size_t first_s = offsetof(sph_point, s), last_s = first_s + sizeof((sph_point){0}.s);
+  if (member < offsetof(sph_point, v)) return sim->h;
+  if (member < offsetof(sph_point, rho)) return sim->scale[g][SPH_VELOCITY];
+  if (member == offsetof(sph_point, rho)) return view->rho[i];
+  if (member == offsetof(sph_point, u)) return view->u ? sim->scale[g][SPH_ENERGY] : 0;
+  if (member == offsetof(sph_point, p)) return view->rho[i] * view->c[i] * view->c[i];
+  if (member == offsetof(sph_point, c)) return view->c[i];
+  if (member < first_s || member >= last_s) return 0;
+  const int q = (int)((member - first_s) / sizeof(double));
+  return q < sim->terms.scalars ? sim->scale[g][SPH_SCALAR + q] : 0;
+}
+
+int sph_sim_tangent_call_field(sph_tangent *t, int member)
+{
+  const sph_sim *sim = t->sim;
+  double most = 0;
+  for (int g = 0; g < sim->groups; g++) {
+    sph_point *point = t->group[g].point;
+    memset(point, 0, (size_t)sim->group[g]->n * sizeof *point);
+    for (long i = 0; !sim->group[g]->wall && i < sim->group[g]->n; i++) {
+      double scale = scale_of(t, g, i, (size_t)member * sizeof(double));
+      ((double *)&point[i])[member] = scale;
+      most = fmax(most, scale);
+    }
+  }
+  return most > 0 ? difference_bodies(t, 1) : SPH_OK;
 }
 
 void sph_sim_tangent_call_phi(sph_tangent *t, int walls)

@@ -13,13 +13,15 @@ typedef struct constants {
   int kernel;
 } constants;
 
-BODY constants constants_of(const sph_tangent_task *t)
+/* derivative NULL: zeros. */
+BODY constants constants_of(const sph_tangent_task *t, unsigned terms, const double *number,
+                            const double *derivative)
 {
-  constants k = {.fluid.terms = t->terms, .kernel = t->kernel};
+  constants k = {.fluid.terms = terms, .kernel = t->kernel};
   void *numbers = (char *)&k.fluid + offsetof(fluid_constants, inverse_h);
-  vec_scalar *number = numbers;
-  for (int n = 0; n < SPH_FLUID_NUMBERS; n++)
-    number[n] = tangent_number(t->numbers[n], t->numbers_d[n]);
+  vec_scalar *to = numbers;
+  for (int n = 0; number && n < SPH_FLUID_NUMBERS; n++)
+    to[n] = tangent_number(number[n], derivative ? derivative[n] : 0);
   return k;
 }
 
@@ -68,16 +70,28 @@ BODY int sums_of(int pass, int dim)
   return sums[pass];
 }
 
-#define LOOP(pass, dim)                                                                  \
-  static void pass##_##dim(const sph_tangent_task *t, long begin, long end)              \
-  {                                                                                      \
-    const constants k = constants_of(t);                                                 \
-    tangent_loop(body_##pass, t, &k, begin, end, dim, slots_of(SPH_TANGENT_##pass, dim), \
-                 sums_of(SPH_TANGENT_##pass, dim));                                      \
+#define LOOP(pass, dim)                                                                   \
+  static void pass##_##dim(const sph_tangent_task *t, long begin, long end)               \
+  {                                                                                       \
+    const constants k = constants_of(t, t->terms, t->numbers, t->numbers_d);              \
+    tangent_loop(body_##pass, t, &k, begin, end, dim, slots_of(SPH_TANGENT_##pass, dim),  \
+                 sums_of(SPH_TANGENT_##pass, dim));                                       \
+  }                                                                                       \
+  static void transposed_##pass##_##dim(const sph_tangent_task *t, long begin, long end)  \
+  {                                                                                       \
+    const constants k = constants_of(t, t->terms, t->numbers, NULL);                      \
+    const constants k_source = constants_of(t, t->terms_source, t->numbers_source, NULL); \
+    transposed_loop(body_##pass, t, &k, &k_source, begin, end, dim,                       \
+                    slots_of(SPH_TANGENT_##pass, dim), sums_of(SPH_TANGENT_##pass, dim)); \
   }
 #define LOOPS(pass) LOOP(pass, 1) LOOP(pass, 2) LOOP(pass, 3)
 SPH_TANGENT_PASSES(LOOPS)
 
 #define ROW(pass) [SPH_TANGENT_##pass] = {pass##_1, pass##_2, pass##_3},
 sph_tangent_function *const sph_tangent_loops[SPH_TANGENT_PASS_COUNT][3] = {
+    SPH_TANGENT_PASSES(ROW)};
+#undef ROW
+#define ROW(pass) \
+  [SPH_TANGENT_##pass] = {transposed_##pass##_1, transposed_##pass##_2, transposed_##pass##_3},
+sph_tangent_function *const sph_tangent_loops_transposed[SPH_TANGENT_PASS_COUNT][3] = {
     SPH_TANGENT_PASSES(ROW)};

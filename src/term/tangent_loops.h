@@ -17,5 +17,6 @@ enum sph_tangent_pass {
 
 extern sph_tangent_function
     *const sph_tangent_loops[SPH_TANGENT_PASS_COUNT][3]; /* [pass][dim - 1] */
+extern sph_tangent_function *const sph_tangent_loops_transposed[SPH_TANGENT_PASS_COUNT][3];
 
 #endif
