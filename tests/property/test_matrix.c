@@ -22,17 +22,28 @@ typedef struct variant {
   const char *name;
   unsigned bits;
   int coupling, vector;
+  const char *kernel;
+  int walls; /* no-slip, isothermal: then all particles change alike, which leaves walls alone, and
+                what these see of the fluid is what matrices take it for */
 } variant;
 
 static const variant variants[] = {
-    {"morris", SPH_MORRIS, SPH_COUPLING_VISCOSITY, 0},
-    {"mcg", SPH_MCG, SPH_COUPLING_VISCOSITY, 1},
-    {"artificial", SPH_ARTIFICIAL, SPH_COUPLING_VISCOSITY, 1},
-    {"morris and artificial", SPH_MORRIS | SPH_ARTIFICIAL, SPH_COUPLING_VISCOSITY, 1},
-    {"mcg and artificial", SPH_MCG | SPH_ARTIFICIAL, SPH_COUPLING_VISCOSITY, 1},
-    {"drag", SPH_DRAG, SPH_COUPLING_VISCOSITY, 1},
-    {"drag and mcg", SPH_DRAG | SPH_MCG, SPH_COUPLING_VISCOSITY, 1},
-    {"conduction", SPH_CONDUCTION, SPH_COUPLING_CONDUCTION, 0},
+    {"morris", SPH_MORRIS, SPH_COUPLING_VISCOSITY, 0, NULL, 0},
+    {"mcg", SPH_MCG, SPH_COUPLING_VISCOSITY, 1, NULL, 0},
+    {"artificial", SPH_ARTIFICIAL, SPH_COUPLING_VISCOSITY, 1, NULL, 0},
+    {"morris and artificial", SPH_MORRIS | SPH_ARTIFICIAL, SPH_COUPLING_VISCOSITY, 1, NULL, 0},
+    {"mcg and artificial", SPH_MCG | SPH_ARTIFICIAL, SPH_COUPLING_VISCOSITY, 1, NULL, 0},
+    {"drag", SPH_DRAG, SPH_COUPLING_VISCOSITY, 1, NULL, 0},
+    {"drag and mcg", SPH_DRAG | SPH_MCG, SPH_COUPLING_VISCOSITY, 1, NULL, 0},
+    {"conduction", SPH_CONDUCTION, SPH_COUPLING_CONDUCTION, 0, NULL, 0},
+    {"diffusion", SPH_MOLTENI, SPH_COUPLING_DIFFUSION, 0, NULL, 0},
+    {"morris at walls", SPH_MORRIS, SPH_COUPLING_VISCOSITY, 0, NULL, 1},
+    {"mcg at walls", SPH_MCG, SPH_COUPLING_VISCOSITY, 1, NULL, 1},
+    {"conduction at walls", SPH_CONDUCTION, SPH_COUPLING_CONDUCTION, 0, NULL, 1},
+    {"singular morris", SPH_MORRIS, SPH_COUPLING_VISCOSITY, 0, "spiky", 0},
+    {"singular mcg", SPH_MCG, SPH_COUPLING_VISCOSITY, 1, "spiky", 0},
+    {"singular conduction", SPH_CONDUCTION, SPH_COUPLING_CONDUCTION, 0, "spiky", 0},
+    {"singular diffusion", SPH_MOLTENI, SPH_COUPLING_DIFFUSION, 0, "spiky", 0},
 };
 enum { VARIANTS = sizeof variants / sizeof *variants };
 
@@ -48,11 +59,23 @@ static void add_dust(sph_sim *sim, int dim)
   sph_sim_add_term(sim, sph_term_drag_time(0.1));
 }
 
+/* Behind the ends of the last direction. */
+static void add_walls(sph_sim *sim, int dim)
+{
+  static const char *const open[] = {"", "x- x+", "x- x+ y- y+"};
+  sph_group *wall = sph_group_create(sim, "wall", "wall");
+  sph_group_add_layers(wall, (double[]){0, 0, 0}, (double[]){1, 1, 1}, open[dim - 1], 1000);
+  sph_boundary boundary = sph_boundary_adami_no_slip();
+  boundary.temperature = 650;
+  sph_group_set_boundary(wall, boundary);
+}
+
 /* Two fluids of other density and viscosity side by side, periodic. */
 static sph_sim *make(int dim, const variant *v)
 {
-  sph_sim *sim = sph_sim_create(
-      &(sph_sim_def){.dim = dim, .dx = 0.1, .periodic = {1, 1, 1}, .length = {1, 1, 1}});
+  sph_sim_def def = {.dim = dim, .dx = 0.1, .kernel = v->kernel};
+  for (int d = 0; d < dim; d++) def.periodic[d] = !v->walls || d < dim - 1, def.length[d] = 1;
+  sph_sim *sim = sph_sim_create(&def);
   for (int g = 0; g < 2; g++) {
     const double low[] = {0.5 * g, 0, 0}, high[] = {0.5 + 0.5 * g, 1, 1};
     sph_group *group = sph_group_box(sim, g ? "oil" : "water", low, high, g ? 700 : 1000);
@@ -75,7 +98,9 @@ static sph_sim *make(int dim, const variant *v)
     sph_sim_add_term(sim, sph_term_viscosity_laminar(v->bits & SPH_MCG ? "mcg" : "morris"));
   if (v->bits & SPH_ARTIFICIAL) sph_sim_add_term(sim, sph_term_viscosity_artificial(0.5, 2));
   if (v->bits & SPH_CONDUCTION) sph_sim_add_term(sim, sph_term_conduction());
+  if (v->bits & SPH_MOLTENI) sph_sim_add_term(sim, sph_term_delta("molteni", 0.1));
   if (v->bits & SPH_DRAG) add_dust(sim, dim);
+  if (v->walls) add_walls(sim, dim);
   return sim;
 }
 
@@ -89,6 +114,7 @@ static sph_evaluation evaluation_of(sph_sim *sim, const sph_part *part, N_Vector
 
 static double mass_of(const sph_sim *sim, const variant *v, const sph_view *view, int g, long i)
 {
+  if (v->coupling == SPH_COUPLING_DIFFUSION) return view->m[i] / view->rho[i];
   return view->m[i] * (v->coupling == SPH_COUPLING_CONDUCTION ? sim->group[g]->eos.c_v : 1);
 }
 
@@ -103,7 +129,7 @@ static void fill(sph_sim *sim, const variant *v, const sph_part *part, sph_patte
   assert_int_equal(sph_sim_material_eos(&e) || sph_sim_walls_fill(&e), 0);
   assert_int_equal(sph_sim_matrix_shape(sim, pattern, matrix), 0);
   for (int g = 0; g < sim->groups; g++)
-    for (long k = 0; k < e.view[g].n; k++)
+    for (long k = 0; k < e.view[g].n && !sim->group[g]->wall; k++)
       for (int c = 0; c < matrix->components; c++)
         matrix->A.floor[(pattern->base[g] + k) * matrix->components + c] =
             mass_of(sim, v, &e.view[g], g, sph_neighbors_order(sim->neighbors, g)[k]);
@@ -116,16 +142,22 @@ static void take(const sph_sim *sim, const variant *v, const sph_pattern *patter
 {
   for (int g = 0; g < sim->groups; g++) {
     const sph_view view = sph_group_data_view(sim->group[g], sph_nvector_data(from), NULL);
-    const double *field = v->coupling == SPH_COUPLING_CONDUCTION ? view.energy : view.v[c];
+    const double *field = v->coupling == SPH_COUPLING_CONDUCTION  ? view.energy
+                          : v->coupling == SPH_COUPLING_DIFFUSION ? view.rho
+                                                                  : view.v[c];
     const int *order = sph_neighbors_order(sim->neighbors, g);
-    for (long k = 0; k < view.n; k++)
+    for (long k = 0; k < view.n && !sim->group[g]->wall; k++)
       to[(pattern->base[g] + k) * matrix->components + (matrix->vector ? c : 0)] = field[order[k]];
   }
 }
 
 static void check(sph_sim *sim, const variant *v, int dim)
 {
-  const double gamma = 0.3, step = 1e-7;
+  static const int role_of[] = {[SPH_COUPLING_VISCOSITY] = SPH_ROLE_VELOCITY,
+                                [SPH_COUPLING_CONDUCTION] = SPH_ROLE_OTHER,
+                                [SPH_COUPLING_DIFFUSION] = SPH_ROLE_DENSITY};
+  const int role = role_of[v->coupling];
+  const double gamma = 0.3, step = role == SPH_ROLE_VELOCITY ? 1e-7 : 1e-3;
   sph_part part;
   sph_pattern pattern = {0};
   sph_matrix matrix = {.vector = v->vector, .components = v->vector ? dim : 1};
@@ -134,13 +166,12 @@ static void check(sph_sim *sim, const variant *v, int dim)
   N_Vector way = N_VClone(y), at = N_VClone(y), f[] = {N_VClone(y), N_VClone(y)};
   assert_int_equal(sph_sim_parts_of(sim, &part, v->bits, 0), 0);
   fill(sim, v, &part, &pattern, &matrix, gamma);
-  /* Of the velocities, or the temperatures, another way for each. */
+  /* Of the velocities, the temperatures or the densities, another way for each. */
   N_VConst(0, way);
   for (int q = 0; q < sim->layout.segments; q++) {
     const sph_segment *s = &sim->layout.segment[q];
-    const int role = v->coupling == SPH_COUPLING_CONDUCTION ? SPH_ROLE_OTHER : SPH_ROLE_VELOCITY;
     for (long i = s->offset; s->role == role && i < s->offset + s->n; i++)
-      sph_nvector_data(way)[i] = cos(2 * pi * 0.618 * (double)i);
+      sph_nvector_data(way)[i] = v->walls ? 1 : cos(2 * pi * 0.618 * (double)i);
   }
   for (int k = 0; k < 2; k++) {
     N_VLinearSum(1, y, k ? -step : step, way, at);
@@ -151,7 +182,7 @@ static void check(sph_sim *sim, const variant *v, int dim)
   double *x = calloc((size_t)n, sizeof *x), *rate = calloc((size_t)n, sizeof *rate);
   double *b = calloc((size_t)n, sizeof *b), *z = calloc((size_t)n, sizeof *z);
   double error = 0, size = 0;
-  const int turns = v->vector || v->coupling == SPH_COUPLING_CONDUCTION ? 1 : dim;
+  const int turns = v->vector || role != SPH_ROLE_VELOCITY ? 1 : dim;
   for (int turn = 0; turn < turns; turn++) {
     for (int c = v->vector ? 0 : turn; c < (v->vector ? dim : turn + 1); c++) {
       take(sim, v, &pattern, &matrix, way, c, x);
