@@ -16,7 +16,7 @@ export OMP_WAIT_POLICY=passive
 
 default=erk:bogacki-shampine-4-2-3
 explicit=$default,erk:rdpk3spfsal35-6-2-3,erk:ark436l2sa-erk-6-3-4,erk:dormand-prince-7-4-5,leapfrog,predictor-corrector
-implicit=$default,imex:ark2-2-3,imex:ark324l2sa-4-2-3,imex:ark436l2sa-6-3-4,imex:ark548l2sa-8-4-5,leapfrog
+implicit=$default,imex:ark324l2sa-4-2-3,imex:ark436l2sa-6-3-4,imex:ark548l2sa-8-4-5,lsrk:rkl-2,leapfrog
 
 # Those of the list that this build knows: "imex:ark324l2sa-4-2-3+linear=klu" where it has the name before the +.
 known() {
@@ -43,7 +43,13 @@ figure() { # NAME CASE INTEGRATORS OPTION...
 }
 
 wanted=("$@")
-tolerances=1e-2,1e-3,1e-4,1e-5,1e-6
-figure taylor-green taylor-green-2d $explicit --tolerances $tolerances --cfl 0.7,0.5,0.35,0.175,0.0875
-figure drop oscillating-drop-2d $explicit --tolerances $tolerances --cfl 0.7,0.5,0.35,0.175,0.0875
-figure sod sod-1d $explicit --tolerances $tolerances --cfl 1,0.7,0.5,0.35,0.175,0.0875
+fine=1e-2,1e-3,1e-4,1e-5,1e-6
+coarse=1e-1,1e-2,1e-3,1e-4,1e-5
+figure taylor-green taylor-green-2d $explicit --tolerances $fine --cfl 0.9,0.8,0.7,0.5,0.35,0.175,0.0875
+figure drop oscillating-drop-2d $explicit --tolerances $fine --cfl 0.9,0.8,0.7,0.5,0.35,0.175,0.0875
+figure sod sod-1d $explicit --tolerances $fine --cfl 1,0.9,0.7,0.5,0.35,0.175,0.0875
+figure couette couette-low-re-2d $implicit --tolerances $coarse --cfl 0.35,0.175
+figure heat heat-stiff-2d $implicit --field energy --tolerances $coarse --cfl 0.35,0.175
+# Drag 1000 times as strong, errors relative to the amplitude of the wave.
+figure drag dusty-wave-1d $implicit --tolerances $coarse --cfl 0.35,0.175 \
+  --set "parameters.drag=1000 kg/m^3/s" --set parameters.e=1e-3 --set "speed=e*c"

@@ -267,14 +267,45 @@ static int sweep_fixed(work *w, work_method *m, int begin, int end)
   return status;
 }
 
+/* Would a run with this tolerance be the one that was made with a smaller one?  It would, where no
+ * error bound a step of that. */
+static int is_same(const work_run *r, const work_run *made, const work_method *m)
+{
+  const sph_step_stats *s = &made->stats.step;
+  return !m->wants && made->state && made->value < r->value && !s->rejected &&
+         !s->bound_by[SPH_BOUND_ERROR];
+}
+
+static int copy(const work *w, work_run *r, const work_run *made)
+{
+  size_t bytes = (size_t)(w->fields.columns * w->fields.particles + 1) * sizeof *r->state;
+  double value = r->value, *state = malloc(bytes);
+  if (!state) return sph_prog_error(PROG_FAILED, "out of memory: the state of a run");
+  memcpy(state, made->state, bytes);
+  *r = *made;
+  r->value = value;
+  r->state = state;
+  return PROG_OK;
+}
+
+/* The sweep of one with error control, from the smallest tolerance on if they are in order. */
+static int sweep_tolerances(work *w, const work_method *m, int begin, int end)
+{
+  int status = PROG_OK;
+  for (int k = end - 1; !status && k >= begin; k--) {
+    work_run *r = &w->run[k], *made = k + 1 < end ? &w->run[k + 1] : NULL;
+    status = made && is_same(r, made, m) ? copy(w, r, made) : measure(w, r, m);
+  }
+  return status;
+}
+
 static int sweep(work *w)
 {
   int status = PROG_OK;
   for (int k = 0, end; !status && k < w->runs; k = end) {
     work_method *m = &w->method[w->run[k].method];
     for (end = k; end < w->runs && w->run[end].method == w->run[k].method;) end++;
-    if (!m->error_control) status = sweep_fixed(w, m, k, end);
-    for (int r = k; m->error_control && !status && r < end; r++) status = measure(w, &w->run[r], m);
+    status = m->error_control ? sweep_tolerances(w, m, k, end) : sweep_fixed(w, m, k, end);
   }
   return status;
 }
