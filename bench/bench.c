@@ -71,5 +71,6 @@ int main(int argc, char **argv)
   bench_tiles();
   bench_stability();
   bench_linear();
+  bench_imex();
   return 0;
 }
