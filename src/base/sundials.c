@@ -44,11 +44,19 @@
   .set_small_num_efails = SPH_SUNDIALS(Step, SetSmallNumEFails),    \
   .set_max_err_test_fails = SPH_SUNDIALS(Step, SetMaxErrTestFails)
 
+#if SPH_SUNDIALS_NUMBER >= 60600
+#define RELAX(Step)                               \
+  .set_relax_fn = SPH_SUNDIALS(Step, SetRelaxFn), \
+  .set_relax_res_tol = SPH_SUNDIALS(Step, SetRelaxResTol),
+#else
+#define RELAX(Step)
+#endif
+
 const sph_sundials_calls sph_sundials_erk = {HANDLER(ERKStep) SHARED(ERKStep),
-                                             WEIGHTS(ERKStep) CONTROLLER(ERKStep)
+                                             WEIGHTS(ERKStep) RELAX(ERKStep) CONTROLLER(ERKStep)
                                                  ADAPTIVE(ERKStep)};
 const sph_sundials_calls sph_sundials_ark = {HANDLER(ARKStep) SHARED(ARKStep),
-                                             WEIGHTS(ARKStep) CONTROLLER(ARKStep)
+                                             WEIGHTS(ARKStep) RELAX(ARKStep) CONTROLLER(ARKStep)
                                                  ADAPTIVE(ARKStep)};
 #if SPH_SUNDIALS_NUMBER >= 70100
 const sph_sundials_calls sph_sundials_mri = {SHARED(MRIStep), WEIGHTS(MRIStep) CONTROLLER(MRIStep)

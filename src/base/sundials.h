@@ -56,6 +56,10 @@ typedef struct sph_sundials_calls {
   int (*set_max_efail_growth)(void *memory, sunrealtype factor);
   int (*set_small_num_efails)(void *memory, int count);
   int (*set_max_err_test_fails)(void *memory, int count);
+#if SPH_SUNDIALS_NUMBER >= 60600 /* of ERKStep and ARKStep */
+  int (*set_relax_fn)(void *memory, ARKRelaxFn energy, ARKRelaxJacFn gradient);
+  int (*set_relax_res_tol)(void *memory, sunrealtype tolerance);
+#endif
 #if SPH_SUNDIALS_NUMBER >= 60700
   int (*set_adapt_controller)(void *memory, SUNAdaptController controller);
 #else

@@ -6,6 +6,7 @@
 #include "integrator_table.h"
 #include "memory.h"
 #include "nvector.h"
+#include "relax.h"
 
 static const double CLOSE = 1e-6; /* relative: such step sizes are the same */
 
@@ -96,8 +97,8 @@ int sph_integrator_arkode_configure(sph_integrator *it)
   if (!own->memory || sph_nvector_lost(it->y)) return SPH_ERR_MEMORY;
   own->listener = (sph_sundials_listener){.listen = listen, .ctx = own};
   own->listening = !sph_sundials_listen(own->call, own->memory, own->context, &own->listener);
-  return own->listening && !configure(it, own) && !sph_nvector_lost(it->y) ? SPH_OK
-                                                                           : SPH_ERR_MEMORY;
+  if (!own->listening || configure(it, own) || sph_nvector_lost(it->y)) return SPH_ERR_MEMORY;
+  return sph_relax_attach(it);
 }
 
 void sph_integrator_arkode_free(sph_integrator *it)
@@ -117,6 +118,7 @@ static int outcome(sph_integrator *it, int flag)
   if (sph_nvector_lost(it->y)) return sph_integrator_fail(it, SPH_ERR_MEMORY, "out of memory");
   if (flag >= 0) return SPH_OK;
   if (it->rhs_status) return it->rhs_status;
+  if (sph_relax_failed(flag)) return SPH_RETRY;
   int status = flag == ARK_MEM_FAIL ? SPH_ERR_MEMORY : SPH_ERR_STEP;
   return sph_integrator_fail(it, status, own->text[0] ? own->text : "SUNDIALS failed");
 }
@@ -126,6 +128,7 @@ int sph_integrator_arkode_reject(sph_integrator *it)
   sph_integrator_arkode *own = it->own;
   own->fresh = 1;
   own->resume = 0;
+  own->end = it->time;
   sph_controller_forget(&own->past);
   it->rhs_status = 0;
   return outcome(it, own->call->reset(own->memory, it->time, it->y));
@@ -144,6 +147,11 @@ static int prepare(sph_integrator *it, const sph_attempt *a, double *h)
 {
   sph_integrator_arkode *own = it->own;
   *h = a->h;
+  if (it->def.relax &&
+      own->end != it->time) { /* the last step ended at a stop time, all but a relaxation */
+    int status = sph_integrator_arkode_reject(it);
+    if (status) return status;
+  }
   if (!it->adaptive) return own->call->set_fixed_step(own->memory, a->h);
   if (own->resume > 0) {
     *h = fmin(*h, own->resume);
@@ -155,6 +163,16 @@ static int prepare(sph_integrator *it, const sph_attempt *a, double *h)
   return own->call->get_current_step(own->memory, h);
 }
 
+/* A relaxed step to a stop time ends beside it.  As if it had not: its state is that of the stop
+ * time, with an error of the order of the step's.  (A step that its error has shortened is shorter
+ * by more than that.) */
+static int missed(const sph_integrator *it, double t, double t_stop)
+{
+  const sph_integrator_arkode *own = it->own;
+  double left = t_stop - it->time;
+  return it->def.relax && own->trial >= left * (1 - CLOSE) && t_stop - t < 0.05 * left;
+}
+
 int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *a, double t_stop)
 {
   sph_integrator_arkode *own = it->own;
@@ -162,6 +180,7 @@ int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *a, double t_s
   own->text[0] = 0;
   it->rhs_status = 0;
   int flag = prepare(it, a, &h);
+  own->trial = h;
   if (flag >= 0) flag = own->call->set_stop_time(own->memory, t_stop);
   if (flag >= 0) flag = own->call->evolve(own->memory, t_stop, it->y, &t, ARK_ONE_STEP);
   if (flag < 0 || sph_nvector_lost(it->y)) {
@@ -170,12 +189,13 @@ int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *a, double t_s
   }
   own->fresh = 0;
   it->first = INFINITY;
-  a->t = flag == ARK_TSTOP_RETURN ? t_stop : t;
+  own->end = t;
+  int stopped = flag == ARK_TSTOP_RETURN || missed(it, t, t_stop);
+  a->t = stopped ? t_stop : t;
   a->h = a->t - it->time;
   if (!it->adaptive) return SPH_OK;
   own->call->get_num_err_test_fails(own->memory, &it->stats.rejected);
-  if (a->h < a->limit * (1 - CLOSE))
-    a->bound = flag == ARK_TSTOP_RETURN ? SPH_BOUND_STOP : SPH_BOUND_ERROR;
+  if (a->h < a->limit * (1 - CLOSE)) a->bound = stopped ? SPH_BOUND_STOP : SPH_BOUND_ERROR;
   /* A controller that grows steps slowly should not see the one that was cut short. */
   double short_step = sph_controller_remembers(&it->controller) ? 0.9 : 0.2;
   if (a->bound == SPH_BOUND_STOP && a->h < short_step * it->stats.dt_last)
@@ -193,5 +213,5 @@ int sph_integrator_arkode_interpolate(sph_integrator *it, double t, N_Vector at)
 {
   sph_integrator_arkode *own = it->own;
   it->rhs_status = 0;
-  return outcome(it, own->call->get_dky(own->memory, t, 0, at));
+  return outcome(it, own->call->get_dky(own->memory, it->def.relax ? fmin(t, own->end) : t, 0, at));
 }

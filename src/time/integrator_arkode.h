@@ -18,6 +18,8 @@ typedef struct sph_integrator_arkode {
   int fresh; /* the next attempt starts anew, with the step size of its plan */
   sph_controller_past past;
   double resume;  /* > 0: start anew with this step, which a stop time had cut short [s] */
+  double trial;   /* the step that is tried [s] */
+  double end;     /* of the last step, as ARKODE has it: relaxed ones may miss a stop time [s] */
   void *kind;     /* what the kind of stepper keeps, its own */
   char text[400]; /* what ARKODE said last */
 } sph_integrator_arkode;

@@ -96,7 +96,9 @@ static int attach(sph_integrator *it, imex *own, void *memory, SUNContext contex
   own->solver->ops->setsysfn = take_no_system;
   own->solver->ops->setup = begin;
   own->solver->ops->solve = solve;
-  return ARK(SetNonlinearSolver)(memory, own->solver) || ARK(SetDeduceImplicitRhs)(memory, 1) ||
+  return ARK(SetNonlinearSolver)(memory,
+                                 own->solver) || /* relaxation wants f_I of the stages themselves */
+         ARK(SetDeduceImplicitRhs)(memory, !it->def.relax) ||
          ARK(SetPredictorMethod)(memory, 0);
 }
 

@@ -49,15 +49,20 @@ static int rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *it)
   return sph_integrator_arkode_rhs(t, y, ydot, it) ? -1 : 0;
 }
 
+/* ARKODE takes s = sqrt(1.54 lambda dt) stages of Runge-Kutta-Chebyshev, stable up to
+ * lambda dt = 0.653 (s^2 - 1) (Verwer, Sommeijer & Hundsdorfer 2004): too few by the -1. */
+static const double FEW = 1 / 1.54;
+
 static int dominant(sunrealtype t, N_Vector y, N_Vector f, sunrealtype *real,
                     sunrealtype *imaginary, void *data, N_Vector w1, N_Vector w2, N_Vector w3)
 {
   sph_integrator *it = data;
+  const sph_integrator_arkode *own = it->own;
   double lambda = 0;
   (void)f, (void)w1, (void)w2, (void)w3;
   it->rhs_status = it->problem.dominant(t, y, &lambda, it->problem.ctx);
   if (!it->rhs_status && !(lambda >= 0 && lambda < INFINITY)) it->rhs_status = SPH_RETRY;
-  *real = -lambda;
+  *real = -(lambda + (own->trial > 0 && own->trial < INFINITY ? FEW / own->trial : 0));
   *imaginary = 0;
   return it->rhs_status ? -1 : 0;
 }
