@@ -215,7 +215,7 @@ static void drag(struct sph_transposed *r)
     if (sim->group[g]->wall) continue;
     clear_sums(r, g);
     for (long s = 0; s < sim->group[g]->n; s++) {
-      const double *body = &r->bars[g].body[4 * order[s]];
+      const double *body = r->bars[g].body + 4 * order[s];
       r->bars[g].sum[SPH_DRAG_HEAT][s] = body[0];
       for (int d = 0; d < sim->dim; d++) r->bars[g].sum[SPH_DRAG_A + d][s] = body[1 + d];
     }
@@ -347,7 +347,7 @@ static int bodies(struct sph_transposed *r)
       const sph_view w = sph_group_data_view(group, r->w, NULL);
       for (long i = 0; !group->wall && i < group->n; i++) {
         const double unit = ((const double *)&t->group[g].point[i])[c];
-        const double *bar = &r->bars[g].body[4 * i];
+        const double *bar = r->bars[g].body + 4 * i;
         double sum = slope.du ? bar[0] * slope.du[i] : 0;
         for (int d = 0; d < group->dim; d++) sum += bar[1 + d] * slope.dv[d][i];
         if (slope.drho) sum += w.rho[i] * slope.drho[i];

