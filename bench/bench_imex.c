@@ -3,7 +3,7 @@
  * Flow: Kolmogorov's, u = U sin(ky) held up by a body force, with a second wave across it that
  * decays, on a periodic lattice off its places by up to 0.1 dx; Wendland C2, h = 1.5 dx, c0 = 10 U,
  * Morris' viscosity, over 3 h/c0.  `ratio` is that of the steps: 0.5 h/c0 of the implicit-explicit
- * run over 2.3/lambda, at which Bogacki and Shampine's pair is just stable, lambda = 6.5 nu/h^2 (3D:
+ * run over 2.3/lambda, where Bogacki and Shampine's pair is just stable, lambda = 6.5 nu/h^2 (3D:
  * 6.9) the largest rate of the viscosity of a lattice.
  *
  * Slab: two media at rest, conductivities 1 : 10, between walls of given temperatures.

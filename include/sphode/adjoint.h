@@ -1,4 +1,4 @@
-/* sphode/adjoint.h -- the gradient of a functional of a whole run, with respect to parameters and to
+/* sphode/adjoint.h -- the gradient of a functional of a whole run, by parameters and by
  * every entry of the start, in one run backwards:
  *
  *   J = phi(y(T)) + int_0^T r(t, y) dt

@@ -93,7 +93,7 @@ typedef struct sph_integrator_def {
    * 0: 0.1 of tolerance; < 0: these limits alone. */
   const char *fast_method;
   double fast_step, fast_tolerance;
-  /* "energy": steps of erk and imex are made a little shorter or longer, so that the energy, kinetic,
+  /* "energy": steps of erk and imex are made a bit shorter or longer, so that the energy, kinetic,
    * internal and potential, changes by its rates alone and not by errors of the step; NULL: not.
    * SUNDIALS 6.6 and later. */
   const char *relax;

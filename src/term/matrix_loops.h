@@ -11,7 +11,7 @@
 typedef struct sph_matrix_task {
   const sph_pair_task *pairs; /* constants: matrix_constants; its sums are not used */
   const long *first;          /* as in sph_mask_task */
-  const unsigned char *mask; /* NULL: of walls, whose sums alone are wanted (tile_matrix.h) */
+  const unsigned char *mask;  /* NULL: of walls, whose sums alone are wanted (tile_matrix.h) */
   int vector;
   long targets;
   /* Of the rows of the targets: where their entries begin, and the diagonal, which is added to.  A

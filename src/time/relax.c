@@ -10,7 +10,8 @@
 
 #define SINCE 60600
 
-/* The least of its weights b; INFINITY without memory for its tables, which is told where it is made. */
+/* The least of its weights b; INFINITY without memory for its tables, which is told where it is
+ * made. */
 static double weights_of(const char *name)
 {
   ARKodeButcherTable table[2] = {NULL, NULL};
