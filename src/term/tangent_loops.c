@@ -1,5 +1,7 @@
 /* Instances of the loops with derivatives: compiled once, for complex numbers. */
 #define SPH_VEC_TANGENT
+#include <stddef.h>
+
 #include "tangent_loops.h"
 
 #include "density_pair.h"
