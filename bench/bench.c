@@ -72,5 +72,6 @@ int main(int argc, char **argv)
   bench_stability();
   bench_linear();
   bench_imex();
+  bench_multirate();
   return 0;
 }

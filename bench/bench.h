@@ -18,6 +18,7 @@ void bench_tiles(void);       /* registered pair terms against fused ones */
 void bench_stability(void);   /* stability limits of the integrators; with --filter only */
 void bench_imex(void);        /* implicit-explicit integrators; with --filter only */
 void bench_linear(void);      /* linear solvers; with --filter only */
+void bench_multirate(void);   /* parts, stabilised schemes, relaxation; with --filter only */
 void bench_integration(void); /* time integration around the right-hand side */
 
 #endif

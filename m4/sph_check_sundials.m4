@@ -70,6 +70,10 @@ AS_IF([test $sph_have_sundials = yes], [
   AC_CHECK_HEADERS([arkode/arkode_sprkstep.h arkode/arkode_lsrkstep.h arkode/arkode_splittingstep.h], [], [],
     [@%:@include <sundials/sundials_types.h>])
   AC_CHECK_FUNCS([ARKodeEvolve ARKStepSetRelaxFn ERKStepSetRelaxFn ARKodeCreateMRIStepInnerStepper])
+  AS_IF([test $sph_version -ge 70200], [SUNDIALS_INTEGRATORS="erk imex mri sprk lsrk, relaxation"],
+    [test $sph_version -ge 60600],
+    [SUNDIALS_INTEGRATORS="erk imex mri sprk, relaxation (no lsrk, no error control of mri: 7.2 and later)"],
+    [SUNDIALS_INTEGRATORS="erk imex mri (no sprk, no relaxation: 6.6; no lsrk, no error control of mri: 7.2)"])
   SUNDIALS_DESCRIPTION="$SUNDIALS_VERSION ($sph_sundials_bits-bit indices"
   AS_IF([test $sph_sundials_mpi = 1],
     [SUNDIALS_DESCRIPTION="$SUNDIALS_DESCRIPTION, MPI in it)"], [SUNDIALS_DESCRIPTION="$SUNDIALS_DESCRIPTION)"])])

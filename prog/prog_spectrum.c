@@ -53,12 +53,12 @@ static double fastest(const sph_sim *sim)
   double most = 0;
   const sph_group *group;
   for (int g = 0; (group = sph_sim_group_get(sim, g)); g++) {
-    const double *c = sph_group_read(group, "sound_speed", 0), *v[3];
+    const double *c = sph_group_read(group, "sound_speed", 0), *v[3] = {NULL, NULL, NULL};
     if (strcmp(sph_group_kind(group), "fluid") || !c) continue;
     for (int d = 0; d < sph_sim_dim(sim); d++) v[d] = sph_group_read(group, "velocity", d);
     for (long i = 0; i < sph_group_count(group); i++) {
       double v2 = 0;
-      for (int d = 0; d < sph_sim_dim(sim); d++) v2 += v[d][i] * v[d][i];
+      for (int d = 0; d < 3; d++) v2 += v[d] ? v[d][i] * v[d][i] : 0;
       most = fmax(most, c[i] + sqrt(v2));
     }
   }

@@ -343,7 +343,7 @@ static int halve(work *w, double difference[WORK_FIELDS])
   if (!status && finer.status)
     status = sph_prog_error(PROG_FAILED, "the reference: %s", finer.reason);
   if (status) return status;
-  double change[WORK_FIELDS];
+  double change[WORK_FIELDS] = {0};
   sph_prog_work_state_distance(&w->fields, w->best.state, finer.state, change);
   for (int f = 0; f < w->fields.n; f++) {
     double ratio = w->halvings ? difference[f] / change[f] : 2;

@@ -305,13 +305,19 @@ static int check_scales(const builder *b, const sph_case_node *map)
 static sph_integrator_def integrator_of(const sph_case_node *map)
 {
   int control = get_number(map, "error_control", 1) != 0;
+  const char *method = get_text(map, "method", NULL);
+  int fast = method && !strncmp(method, "mri:", 4); /* it has a fast part, with errors of its own */
   return (sph_integrator_def){
-      .method = get_text(map, "method", NULL),
+      .method = method,
       .cfl = get_number(map, "cfl", 0),
       .tolerance = control ? get_number(map, "tolerance", 0) : -1,
       .controller = get_text(map, "controller", NULL),
       .stage_tolerance = get_number(map, "stage_tolerance", 0),
       .linear = get_text(map, "linear", NULL),
+      .fast_method = get_text(map, "fast_method", NULL),
+      .fast_step = get_number(map, "fast_step", 0),
+      .fast_tolerance = get_number(map, "fast_tolerance", control || !fast ? 0 : -1),
+      .relax = get_text(map, "relax", NULL),
       .dt_max = get_number(map, "dt_max", 0),
       .dt_min = get_number(map, "dt_min", 0),
       .dt_fixed = get_number(map, "dt_fixed", 0),

@@ -212,6 +212,7 @@ void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def)
     sim->integrator_def.linear = def->linear ? sim->linear : NULL;
     if (def->fast_method) snprintf(sim->fast, sizeof sim->fast, "%s", def->fast_method);
     sim->integrator_def.fast_method = def->fast_method ? sim->fast : NULL;
+    sim->integrator_def.relax = def->relax ? "energy" : NULL; /* there is no other */
     if (def->controller)
       sim->integrator_def.controller = sph_controller_find(def->controller, &sim->error)->name;
     if (def->own) {

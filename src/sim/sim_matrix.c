@@ -1,5 +1,6 @@
 #include "sim_matrix.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "memory.h"
@@ -354,6 +355,35 @@ void sph_sim_matrix_add_tiles(sph_evaluation *e, const sph_pattern *pattern, sph
                                                : 0; /* a wall mirrors scalars */
       if (!sim->group[s]->wall || seen) loop_over(e, pattern, matrix, loop, g, s, &k);
     }
+}
+
+/* Loops over pairs count a particle itself, too, which is coupled to itself by k_ii. */
+static void leave_out_self(const sph_evaluation *e, int g, int d, double k)
+{
+  const sph_sim *sim = e->sim;
+  const int *order = sph_neighbors_order(sim->neighbors, g);
+  const sph_view *view = &e->view[g];
+  for (long s = 0; s < view->n; s++) {
+    const double V = view->m[order[s]] / view->rho[order[s]];
+    for (int a = 0, at = 0; a < d; at += d - a, a++) sim->sorted[g].sum[at][s] -= k * V * V;
+  }
+}
+
+int sph_sim_matrix_sums(sph_evaluation *e, int g, int coupling)
+{
+  sph_sim *sim = e->sim;
+  const sph_matrix_loops *loops = sph_matrix_loop(sim->isa, sim->kernel_number, sim->dim);
+  const int vector = coupling == SPH_COUPLING_VISCOSITY, d = vector ? sim->dim : 1;
+  const double f0 = -sph_kernel_f(sim->kernel, sim->dim, 0, sim->h) / sim->F_scale;
+  sph_sim_pairs_clear(sim, g, d * (d + 1) / 2);
+  for (int s = 0; s < sim->groups; s++) {
+    matrix_constants k = constants_of(e, g, s, 1, coupling);
+    k.regular = 1; /* else a singular F is that of a particle and itself */
+    if (vector ? (k.fluid.terms & SPH_VISCOUS) || k.drag > 0 : k.scalar > 0)
+      sph_sim_pairs_loop(sim, vector ? loops->wall_vector : loops->wall_scalar, g, s, &k);
+    if (s == g) leave_out_self(e, g, d, isfinite(f0) ? k.scalar * f0 : 0);
+  }
+  return d;
 }
 
 void sph_sim_matrix_pattern_free(sph_pattern *pattern)

@@ -61,6 +61,9 @@ void sph_sim_matrix_fill(sph_evaluation *e, const sph_pattern *pattern, sph_matr
  * enum tile_unknown; a scalar may be exchanged per volume. */
 void sph_sim_matrix_add_tiles(sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
                               double gamma, int unknown, int per_volume);
+/* Of each target of group g the sum of the coupling with all neighbours, walls too: into the sums
+ * of its sorted copy, of velocities the upper triangle by rows.  Returns the rows of a block. */
+int sph_sim_matrix_sums(sph_evaluation *e, int g, int coupling);
 
 void sph_sim_matrix_pattern_free(sph_pattern *pattern);
 void sph_sim_matrix_free(sph_matrix *matrix);

@@ -7,9 +7,12 @@
 #include "eos_table.h"
 #include "gradient_pair.h"
 #include "memory.h"
+#include "sim_dominant.h"
 #include "sim_energy.h"
+#include "sim_fit.h"
 #include "sim_implicit.h"
 #include "sim_parts.h"
+#include "sim_relax.h"
 #include "sim_rhs.h"
 #include "sim_tangent.h"
 #include "sim_weights.h"
@@ -193,6 +196,7 @@ static int make_terms(sph_sim *sim)
   sph_sim_prepare_h(sim);
   sim->needs_temperature = (bits & SPH_CONDUCTION) || sph_sim_implicit_heats(sim);
   int status = sph_sim_parts_make(sim);
+  if (!status && sim->has_integrator) status = sph_sim_fit(sim);
   sim->fluid_sums = bits & SPH_RARE ? SPH_FLUID_SUMS_ALL : SPH_FLUID_SUMS;
   if (sim->part[SPH_WHOLE].tiles) sim->fluid_sums = SPH_SUM_SCALAR + terms->scalars;
   return status;
@@ -328,6 +332,9 @@ sph_problem sph_sim_prepare_problem(sph_sim *sim)
                        .rhs_piece = sph_sim_rhs_piece,
                        .limits = limits,
                        .limits_fast = limits_fast,
+                       .dominant = sph_sim_dominant,
+                       .energy = sph_sim_relax_energy,
+                       .energy_gradient = sph_sim_relax_gradient,
                        .solve = sim->implicit ? sph_sim_implicit_solve : NULL,
                        .admissible = admissible,
                        .error = &sim->error};

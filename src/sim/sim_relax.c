@@ -10,6 +10,8 @@
  * g: the acceleration by these forces.  With the total energy per mass for u, v^2/2 is in it. */
 #include "sim_relax.h"
 
+#include <math.h>
+
 #include "sim_rhs.h"
 
 enum { CHUNK = 2048, PARALLEL_MIN = 4096 };
@@ -19,44 +21,51 @@ static int total(const sph_group *group)
   return sph_group_data_energy(group) == SPH_TOTAL_ENERGY;
 }
 
-static double energy_of(const sph_sim *sim, const sph_group *group, const sph_view *view, long i)
+/* [0]: energy of a particle, [1]: of magnitudes. */
+static void add_energy(const sph_sim *sim, const sph_group *group, const sph_view *view, long i,
+                       double sum[2])
 {
   const int elastic = !group->eos.thermal && group->eos.elastic_energy;
-  double x[3] = {0}, v2 = 0, e = view->energy ? view->energy[i] : 0;
+  double x[3] = {0}, v2 = 0, u = view->energy ? view->energy[i] : 0;
   for (int d = 0; d < sim->dim; d++) {
     x[d] = view->x[d][i];
     v2 += view->v[d][i] * view->v[d][i];
   }
-  if (!total(group)) e += v2 / 2;
-  if (elastic) e += group->eos.elastic_energy(&group->eos, view->rho[i]);
-  return view->m[i] * (e + sph_term_set_potential(&sim->terms, x));
+  if (elastic) u += group->eos.elastic_energy(&group->eos, view->rho[i]);
+  const double m = view->m[i], kinetic = total(group) ? 0 : m * v2 / 2;
+  const double potential = m * sph_term_set_potential(&sim->terms, x);
+  sum[0] += kinetic + m * u + potential;
+  sum[1] += kinetic + fabs(m * u) + fabs(potential);
 }
 
 /* Chunks of particles, summed in order. */
-static double energy_of_group(const sph_sim *sim, const sph_group *group, const sph_view *view)
+static void add_group(const sph_sim *sim, const sph_group *group, const sph_view *view,
+                      double *energy, double *parts)
 {
   const long chunks = (view->n + CHUNK - 1) / CHUNK;
-  double *part = sim->sorted[group->index].sum[0], sum = 0; /* free between evaluations */
+  double *part = sim->sorted[group->index].sum[0]; /* free between evaluations */
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (view->n > PARALLEL_MIN)
   for (long k = 0; k < chunks; k++) {
     const long end = (k + 1) * CHUNK < view->n ? (k + 1) * CHUNK : view->n;
-    part[k] = 0;
-    for (long i = k * CHUNK; i < end; i++) part[k] += energy_of(sim, group, view, i);
+    part[2 * k] = part[2 * k + 1] = 0;
+    for (long i = k * CHUNK; i < end; i++) add_energy(sim, group, view, i, part + 2 * k);
   }
-  for (long k = 0; k < chunks; k++) sum += part[k];
-  return sum;
+  for (long k = 0; k < chunks; k++) {
+    *energy += part[2 * k];
+    *parts += part[2 * k + 1];
+  }
 }
 
-int sph_sim_relax_energy(N_Vector y, double *energy, void *ctx)
+int sph_sim_relax_energy(N_Vector y, double *energy, double *parts, void *ctx)
 {
   const sph_sim *sim = ctx;
-  *energy = 0;
+  *energy = *parts = 0;
   for (int g = 0; g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
     const sph_view view = sph_group_data_view(group, sph_nvector_data(y), NULL);
-    if (!group->wall) *energy += energy_of_group(sim, group, &view);
+    if (!group->wall) add_group(sim, group, &view, energy, parts);
   }
-  return *energy - *energy == 0 ? SPH_OK : SPH_RETRY;
+  return *parts < INFINITY ? SPH_OK : SPH_RETRY;
 }
 
 /* The acceleration by forces with a potential, for particles that do not move, into dx. */
@@ -113,30 +122,4 @@ int sph_sim_relax_gradient(N_Vector y, N_Vector gradient, void *ctx)
       for (long i = 0; i < view.n; i++) view.ds[q][i] = 0;
   }
   return status;
-}
-
-int sph_sim_relax_fit(sph_sim *sim)
-{
-  for (int g = 0; g < sim->groups; g++) {
-    const sph_group *group = sim->group[g];
-    const char *energy = sph_group_energy(group);
-    int field = sph_group_data_energy(group);
-    if (group->wall || group->eos.dust) continue;
-    if (field == SPH_ENTROPY || field == SPH_TEMPERATURE)
-      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
-                          "relax energy: %s integrates %s; right is u or total "
-                          "(sph_group_set_energy)",
-                          group->name, energy);
-    if (!group->eos.thermal && sim->terms.summed)
-      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
-                          "relax energy: the energy of %s is in its density, which is a sum over "
-                          "neighbours here; right is continuity, or an equation of state with an "
-                          "internal energy",
-                          group->name);
-    if (!group->eos.thermal && !group->eos.elastic_energy)
-      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
-                          "relax energy: equation of state %s of %s has no elastic_energy",
-                          group->eos.name, group->name);
-  }
-  return SPH_OK;
 }

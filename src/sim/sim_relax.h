@@ -3,11 +3,9 @@
 #define SPH_SIM_RELAX_H
 #include "sim_data.h"
 
-/* E(y) [J]: kinetic, internal or elastic, potential. */
-int sph_sim_relax_energy(N_Vector y, double *energy, void *sim);
+/* E(y) [J]: kinetic, internal or elastic, potential; and the sum of the magnitudes of these. */
+int sph_sim_relax_energy(N_Vector y, double *energy, double *parts, void *sim);
 /* dE/dy, each entry in J per unit of its field; padding is left alone. */
 int sph_sim_relax_gradient(N_Vector y, N_Vector gradient, void *sim);
-/* Is E a function of the state vector alone, particle by particle?  0 or a failure (recorded). */
-int sph_sim_relax_fit(sph_sim *sim);
 
 #endif

@@ -148,14 +148,20 @@ int sph_term_part_default(sph_term_set *set, sph_error *error)
   return sph_term_part_first(set, SPH_TERM_IMPLICIT) ? SPH_OK : not_implicit("", error);
 }
 
+const char *sph_term_part_named(unsigned bits)
+{
+  for (int k = 0; k < BUILT_IN; k++)
+    if (bits & built_in[k].bits) return built_in[k].name;
+  return NULL;
+}
+
 const char *sph_term_part_first(const sph_term_set *set, int part)
 {
   unsigned bits = bits_of(set);
   if (part == SPH_TERM_EXPLICIT) bits &= ~(set->implicit | set->fast);
   if (part == SPH_TERM_IMPLICIT) bits &= set->implicit;
   if (part == SPH_TERM_FAST) bits &= set->fast;
-  for (int k = 0; k < BUILT_IN; k++)
-    if (bits & built_in[k].bits) return built_in[k].name;
+  if (sph_term_part_named(bits)) return sph_term_part_named(bits);
   for (int k = 0; k < set->called; k++)
     if (set->call[k].part == part) return set->call[k].name;
   return NULL;

@@ -17,6 +17,8 @@ int sph_term_part_set(sph_term_set *set, const char *term, const char *part, sph
 int sph_term_part_default(sph_term_set *set, sph_error *error);
 /* What a term changes that may be implicit, enum sph_term_changes; else recorded. */
 int sph_term_part_changes(const sph_term *term, unsigned *changes, sph_error *error);
+/* Name of a built-in term that has one of these bits; NULL: none has. */
+const char *sph_term_part_named(unsigned bits);
 /* Name of the first term of that part; NULL: none. */
 const char *sph_term_part_first(const sph_term_set *set, int part);
 

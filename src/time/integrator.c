@@ -195,6 +195,9 @@ int sph_integrator_limit(sph_integrator *it, double t, N_Vector y)
   for (int k = 0; k < SPH_BOUND_COUNT; k++) limit.dt[k] = INFINITY;
   int status = it->problem.limits ? it->problem.limits(t, y, &limit, it->problem.ctx) : SPH_OK;
   limit.dt[SPH_BOUND_CFL] *= it->def.cfl * it->info.stability;
+  if (it->info.wants & SPH_WANTS_DOMINANT) /* stages do what shorter steps would */
+    limit.dt[SPH_BOUND_VISCOUS] = limit.dt[SPH_BOUND_CONDUCTION] = limit.dt[SPH_BOUND_DRAG] =
+        INFINITY;
   if (it->def.dt_max > 0) limit.dt[SPH_BOUND_USER] = fmin(limit.dt[SPH_BOUND_USER], it->def.dt_max);
   it->limit = INFINITY;
   it->cause = SPH_BOUND_USER;

@@ -160,9 +160,10 @@ static void of_every_integrator(void **state)
   const double fall = 0.3, t = sqrt(2 * fall / g), dt = 0.011;
   double mark = bottom - fall;
   sph_integrator_info info;
-  int tried = 0, asks = SPH_WANTS_SEPARABLE | SPH_WANTS_DOMINANT;
+  int tried = 0;
   for (int k = 0; sph_integrator_info_get(k, &info); k++) {
-    if (info.order < 2) continue;
+    /* With densities that are sums, as separable problems have, a block does not fall as one. */
+    if (info.order < 2 || (info.wants & SPH_WANTS_SEPARABLE)) continue;
     sph_sim *sim = falling(info.name, dt);
     if (info.wants & SPH_WANTS_IMPLICIT) { /* viscosity, which does nothing here */
       sph_group_set_viscosity(sph_sim_group(sim, "block"), 1);
@@ -170,13 +171,7 @@ static void of_every_integrator(void **state)
     }
     if (info.wants & SPH_WANTS_FAST) sph_sim_set_part(sim, "gravity", "fast");
     sph_sim_add_event(sim, &(sph_event){.name = "own", .value = height, .ctx = &mark, .stop = 1});
-    int status = sph_sim_run(sim, 0.4);
-    if (status && (info.wants & asks) && strstr(sph_sim_error(sim), "there is none")) {
-      print_message("# %s: left out: %s\n", info.name, sph_sim_error(sim));
-      sph_sim_free(sim);
-      continue;
-    }
-    good(sim, status);
+    good(sim, sph_sim_run(sim, 0.4));
     assert_true(sph_sim_stopped_by(sim) != NULL);
     double close = info.wants & SPH_WANTS_IMPLICIT ? 1e-6 : 1e-9; /* stages to 1e-8 */
     double sag = strchr(info.name, ':') && info.order == 2 ? g * dt * dt / 8 : 0;
@@ -205,7 +200,6 @@ static int off_the_cosine(void *ctx, sph_sim *sim, sph_error *error)
   return SPH_OK;
 }
 
-/* NaN: it asks for what the simulation has not. */
 static double dense_error(const sph_integrator_info *info, double dt)
 {
   const double lo[] = {X0 - dx, -dx}, hi[] = {X0 + dx, dx};
@@ -213,8 +207,9 @@ static double dense_error(const sph_integrator_info *info, double dt)
   sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = dx});
   sph_group *patch = sph_group_box(sim, "patch", lo, hi, 1);
   sph_group_set_eos(patch, sph_eos_tait(1, 1, 7));
-  sph_sim_add_term(sim, sph_term_continuity());
-  sph_sim_add_term(sim, sph_term_pressure());
+  int summed = (info->wants & SPH_WANTS_SEPARABLE) != 0;
+  sph_sim_add_term(sim, summed ? sph_term_summation(0) : sph_term_continuity());
+  sph_sim_add_term(sim, summed ? sph_term_pressure_form("s") : sph_term_pressure());
   sph_sim_add_term(sim, sph_term_harmonic(omega));
   if (info->wants & SPH_WANTS_IMPLICIT) {
     sph_group_set_viscosity(patch, 0.01);
@@ -225,11 +220,9 @@ static double dense_error(const sph_integrator_info *info, double dt)
                                                     .dt_fixed = dt,
                                                     .stage_tolerance = 1e-13});
   sph_sim_add_output(sim, (sph_output){.interval = 1e-3, .frame = off_the_cosine, .ctx = &worst});
-  int status = sph_sim_run(sim, 1.5);
-  int lacks = strstr(sph_sim_error(sim), "there is none") != NULL;
-  if (status && !lacks) fail_msg("%s: %s", info->name, sph_sim_error(sim));
+  if (sph_sim_run(sim, 1.5)) fail_msg("%s: %s", info->name, sph_sim_error(sim));
   sph_sim_free(sim);
-  return lacks ? NAN : worst;
+  return worst;
 }
 
 static void dense_output_has_the_order(void **state)
@@ -241,7 +234,6 @@ static void dense_output_has_the_order(void **state)
     double h = info.order == 1 ? 0.005 : 0.04;
     double coarse = dense_error(&info, h), fine = dense_error(&info, h / 2);
     double order = log2(coarse / fine), nominal = fmin(info.order, 4);
-    if (isnan(order) && (info.wants & (SPH_WANTS_SEPARABLE | SPH_WANTS_DOMINANT))) continue;
     if (!(order > nominal - 0.1))
       fail_msg("%s: %.2e, %.2e, order %.2f, not %g", info.name, coarse, fine, order, nominal);
   }
