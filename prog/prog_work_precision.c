@@ -359,7 +359,7 @@ static int halve(work *w, double difference[WORK_FIELDS])
 
 static int refer(work *w)
 {
-  double difference[WORK_FIELDS], longest = 0;
+  double difference[WORK_FIELDS] = {0}, longest = 0;
   w->best = (work_run){.method = -1, .setting = "cfl", .value = cfl_of(&w->reference)};
   for (int k = 0; k < w->runs; k++) longest = fmax(longest, w->run[k].cpu);
   int status = measure_limits(w, &w->best, &w->reference);

@@ -60,8 +60,10 @@ static void add_log(sph_text *script, const char *axis, double lo, double hi)
   }
   sph_text_add(script, "set format %s '%%g'\nset %stics (", axis, axis);
   double power = pow(10, floor(log10(lo)));
-  for (; power <= hi; power *= 10)
+  while (power <= hi) {
     sph_text_add(script, "%.9g, %.9g, %.9g, ", power, 2 * power, 5 * power);
+    power *= 10;
+  }
   sph_text_add(script, "%.9g)\n", power);
 }
 
