@@ -67,6 +67,7 @@ int main(int argc, char **argv)
   sph_sim_free(sim);
   bench_neighbors();
   bench_rhs();
+  bench_derivatives();
   bench_integration();
   bench_tiles();
   bench_stability();

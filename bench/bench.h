@@ -19,6 +19,7 @@ void bench_stability(void);   /* stability limits of the integrators; with --fil
 void bench_imex(void);        /* implicit-explicit integrators; with --filter only */
 void bench_linear(void);      /* linear solvers; with --filter only */
 void bench_multirate(void);   /* parts, stabilised schemes, relaxation; with --filter only */
+void bench_derivatives(void); /* products with the Jacobian */
 void bench_integration(void); /* time integration around the right-hand side */
 
 #endif

@@ -1,5 +1,5 @@
-/* sphode/adjoint.h -- the gradient of a functional of a whole run, by parameters and by
- * every entry of the start, in one run backwards:
+/* sphode/adjoint.h -- the gradient of a functional of a whole run, with respect to parameters and
+ * to every entry of the start, in one run backwards:
  *
  *   J = phi(y(T)) + int_0^T r(t, y) dt
  *
@@ -7,9 +7,9 @@
  * The adjoint is that of the scheme itself (Hager 2000; Sandu 2006): the gradient is that of the
  * numerical result, up to rounding, not an approximation of another one.
  *
- * A step of a tangent costs about 12 right-hand sides a stage and parameter, one backwards about
- * 160 a stage: for more than a dozen parameters, or the start, the adjoint is cheaper than
- * sphode/sensitivity.h. */
+ * A stage of a tangent costs about 12 right-hand sides for each parameter, a stage backwards about
+ * 160 (2D) or 230 (3D) for all of them: for more than a dozen parameters, or the start, the adjoint
+ * is cheaper than sphode/sensitivity.h. */
 #ifndef SPHODE_ADJOINT_H
 #define SPHODE_ADJOINT_H
 #include "sphode/group.h"

@@ -46,7 +46,7 @@ void sph_eos_slopes(const sph_eos *eos, long n, const double *rho, const double 
     along(eos, rho[i], u ? u[i] : 0, rho[i], 0, &p_rho[i], &c_rho[i]);
     p_rho[i] /= rho[i];
     c_rho[i] /= rho[i];
-    if (!eos->thermal) continue;
+    if (!eos->thermal || !u) continue;
     double scale = stiffness(eos, rho[i], u[i]) / 4; /* of the heat in u */
     along(eos, rho[i], u[i], 0, scale, &p_u[i], &c_u[i]);
     p_u[i] /= scale;

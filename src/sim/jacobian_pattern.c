@@ -49,7 +49,7 @@ static int maker_add(maker *m, int number)
 {
   long *end = &m->sets.first[m->made + 1];
   if (m->mark[number] == (int)m->made + 1) return SPH_OK;
-  if (*end == m->room) {
+  if (!m->sets.item || *end == m->room) {
     long room = m->room ? 2 * m->room : 1024;
     int status = sph_memory_grow((void **)&m->sets.item, (size_t)*end, (size_t)room, sizeof(int),
                                  "a pattern", m->error);

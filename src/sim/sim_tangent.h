@@ -88,8 +88,8 @@ int sph_sim_tangent_map_record(const sph_sim *sim, int g); /* slots of a record 
 
 /* sim_tangent_loop.c: the constants of a pass (enum sph_tangent_pass); its derivative, added to
  * the sums of the target. */
-fluid_constants sph_sim_tangent_constants(const sph_tangent *tangent, int pass, int target,
-                                          int source);
+fluid_constants sph_sim_tangent_loop_constants(const sph_tangent *tangent, int pass, int target,
+                                               int source);
 void sph_sim_tangent_loop(sph_tangent *tangent, int pass, int target, int source);
 
 /* sim_tangent_call.c: differences.  Along s and theta: */

@@ -69,7 +69,7 @@ fluid_constants sph_sim_tangent_call_constants(sph_tangent *t, int pass, int tar
   double *sum = numbers_of(&slope);
   for (int k = 0; t->theta && k < POINTS; k++) {
     set_theta(t, value, at[k] * step);
-    fluid_constants there = sph_sim_tangent_constants(t, pass, target, source);
+    fluid_constants there = sph_sim_tangent_loop_constants(t, pass, target, source);
     const double *number = numbers_of(&there);
     for (int n = 0; n < SPH_FLUID_NUMBERS; n++) sum[n] += weight[k] / step * number[n];
   }

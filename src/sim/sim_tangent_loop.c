@@ -8,8 +8,8 @@ enum { BLOCKS = 16 };
 /* Sources beyond the support add zeros; a little more, for rounding. */
 static double reach2(const sph_sim *sim) { return sim->H * sim->H * (1 + 1e-12); }
 
-fluid_constants sph_sim_tangent_constants(const sph_tangent *tangent, int pass, int target,
-                                          int source)
+fluid_constants sph_sim_tangent_loop_constants(const sph_tangent *tangent, int pass, int target,
+                                               int source)
 {
   const sph_sim *sim = tangent->sim;
   if (pass == SPH_TANGENT_drag) return sph_sim_drag_constants(sim, target, source);
@@ -22,7 +22,7 @@ void sph_sim_tangent_loop(sph_tangent *tangent, int pass, int target, int source
 {
   sph_sim *sim = tangent->sim;
   const sph_list list = sph_neighbors_list(sim->neighbors, target, source);
-  const fluid_constants k = sph_sim_tangent_constants(tangent, pass, target, source);
+  const fluid_constants k = sph_sim_tangent_loop_constants(tangent, pass, target, source);
   const fluid_constants k_d = sph_sim_tangent_call_constants(tangent, pass, target, source);
   const sph_tangent_task task = {.target = sim->sorted[target].record,
                                  .target_d = tangent->group[target].record_d,

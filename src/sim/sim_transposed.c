@@ -97,7 +97,7 @@ static void rates(struct sph_transposed *r, int g, long i, long s)
   for (int q = 0; q < SPH_PAIR_SUMS; q++)
     if (r->bars[g].sum[q]) r->bars[g].sum[q][s] = in[q];
   memcpy(&r->bars[g].point[i], in + SPH_PAIR_SUMS, sizeof(sph_point));
-  memcpy(&r->bars[g].body[4 * i], in + SPH_PAIR_SUMS + SPH_POINT, 4 * sizeof(double));
+  memcpy(r->bars[g].body + 4 * i, in + SPH_PAIR_SUMS + SPH_POINT, 4 * sizeof(double));
 }
 
 static void all_rates(struct sph_transposed *r)
@@ -153,8 +153,8 @@ static void loop(struct sph_transposed *r, int pass, int target, int source, int
   sph_tangent *t = r->tangent;
   sph_sim *sim = t->sim;
   const sph_list list = sph_neighbors_list(sim->neighbors, target, source);
-  const fluid_constants k = sph_sim_tangent_constants(t, pass, target, source);
-  const fluid_constants k_source = sph_sim_tangent_constants(t, pass, source, target);
+  const fluid_constants k = sph_sim_tangent_loop_constants(t, pass, target, source);
+  const fluid_constants k_source = sph_sim_tangent_loop_constants(t, pass, source, target);
   const double *const *weight = (const double *const *)r->bars[target].sum;
   const double *const *weight_source = (const double *const *)r->bars[source].sum;
   const sph_tangent_task task = {.target = sim->sorted[target].record,
@@ -215,7 +215,7 @@ static void drag(struct sph_transposed *r)
     if (sim->group[g]->wall) continue;
     clear_sums(r, g);
     for (long s = 0; s < sim->group[g]->n; s++) {
-      const double *body = r->bars[g].body + 4 * order[s];
+      const double *body = r->bars[g].body + 4L * order[s];
       r->bars[g].sum[SPH_DRAG_HEAT][s] = body[0];
       for (int d = 0; d < sim->dim; d++) r->bars[g].sum[SPH_DRAG_A + d][s] = body[1 + d];
     }

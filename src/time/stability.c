@@ -10,7 +10,7 @@
 
 static const double GROWTH = 1.001; /* a step */
 static const double FARTHEST = 50;  /* |z| */
-enum { RAYS = 180 };
+enum { RAYS = 90 };                 /* of a quarter */
 
 /* ---- Runge-Kutta: R(z) = 1 + z sum_i b_i Y_i,  Y_i = 1 + z sum_j a_ij Y_j ---- */
 
@@ -146,16 +146,16 @@ double sph_stability_extent(const char *method, double angle)
 /* Rays of every degree are found once; between two of them the shorter one counts. */
 double sph_stability_step(const char *method, long n, const double *re, const double *im)
 {
-  const double pi = acos(-1), step = pi / 2 / (RAYS / 2);
-  double ray[RAYS / 2 + 1], longest = INFINITY;
+  const double pi = acos(-1), step = pi / 2 / RAYS;
+  double ray[RAYS + 1], longest = INFINITY;
   region r;
   int status = open_region(&r, method);
-  for (int k = 0; k <= RAYS / 2; k++) ray[k] = -1;
+  for (int k = 0; k <= RAYS; k++) ray[k] = -1;
   for (long i = 0; !status && i < n; i++) {
     double size = hypot(re[i], im[i]);
     if (size == 0) continue;
     double angle = atan2(fabs(im[i]), fmin(re[i], 0)) - pi / 2;
-    int k = (int)fmin(fmax(angle / step, 0), RAYS / 2 - 1);
+    int k = (int)fmin(fmax(angle / step, 0), RAYS - 1);
     for (int q = k; q <= k + 1; q++)
       if (ray[q] < 0) ray[q] = extent(&r, pi / 2 + q * step);
     longest = fmin(longest, fmin(ray[k], ray[k + 1]) / size);
