@@ -24,6 +24,7 @@ static int reserve(sph_columns *to, long n, long entries, sph_error *error)
 static void add(sph_columns *to, SuiteSparse_long row, SuiteSparse_long column, double value)
 {
   SuiteSparse_long k = to->next[column]++;
+  to->changed |= to->row[k] != row || !(to->value[k] == value);
   to->row[k] = row;
   to->value[k] = value;
 }
@@ -33,12 +34,14 @@ int sph_columns_set(sph_columns *to, const sph_csr *A, int half, sph_error *erro
   const long n = A->n;
   int status = reserve(to, n, A->start[n] + n, error);
   if (status) return status;
+  to->changed = to->n != n;
   to->n = n;
   to->start[0] = 0;
   for (long i = 0; i < n; i++) { /* column i is as long as row i, and its half, too */
     SuiteSparse_long count = 1;
     for (long k = A->start[i]; k < A->start[i + 1]; k++) count += !half || A->column[k] < i;
     to->next[i] = to->start[i];
+    to->changed |= to->start[i + 1] != to->start[i] + count;
     to->start[i + 1] = to->start[i] + count;
   }
   for (long i = 0; i < n; i++) { /* row after row, so that each column is filled in order */

@@ -14,6 +14,7 @@ typedef struct sph_columns {
   double *value;           /* [start[n]] */
   SuiteSparse_long *next;  /* [n] scratch */
   long room_n, room_entries;
+  int changed; /* the last set found another matrix than the one before */
 } sph_columns;
 
 /* All of A, or with half != 0 its upper half: rows up to the column's. */

@@ -6,6 +6,8 @@
  * conjugate gradients with the diagonal for all others; Cholesky factors where they cost EDGE times
  * less by the figures below, which were measured: docs/linear-solvers.md. */
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 #include "linear_cholmod.h"
 #include "linear_data.h"
@@ -34,6 +36,7 @@ typedef struct choice {
   long solves, solves_before;     /* with these values, with those before */
   long matrices, matrices_before; /* of this pattern, of that before */
   int ordered, factored;          /* Cholesky factors know this pattern, these values */
+  uint64_t print;                 /* of the matrix */
   double condition;               /* 1/least floor over diagonal */
   double iterations;              /* of the last iterative solve, over the root of its condition */
   double spent;                   /* on iterations since fill was looked for [ns] */
@@ -119,10 +122,26 @@ static int create(sph_linear *solver, sph_error *error)
   return c ? make(c, solver, JACOBI, error) : SPH_ERR_MEMORY;
 }
 
+/* A number that is another one for another diagonal (Fowler, Noll & Vo's hash), and so, but for a
+ * chance that costs time only, for other values: a numbered matrix may be the one before again. */
+static uint64_t print_of(const sph_csr *A)
+{
+  uint64_t print = 14695981039346656037u;
+  for (long i = 0; i < A->n; i++) {
+    uint64_t bits;
+    memcpy(&bits, &A->diagonal[i], sizeof bits);
+    print = (print ^ bits ^ bits >> 32) * 1099511628211u;
+  }
+  return print;
+}
+
 static int prepare(sph_linear *solver, const sph_csr *A, int change, sph_error *error)
 {
   choice *c = solver->own;
+  const uint64_t print = print_of(A);
   (void)error;
+  if (change == SPH_LINEAR_VALUES && print == c->print) return SPH_OK;
+  c->print = print;
   if (change == SPH_LINEAR_PATTERN) {
     c->matrices_before = c->matrices;
     c->matrices = 0;

@@ -14,6 +14,7 @@
 typedef struct cholesky {
   cholmod_common common;
   cholmod_factor *L;
+  int factored;             /* L is the factor of `upper` */
   cholmod_dense *X, *Y, *E; /* workspace of solves, kept */
   cholmod_dense *B;         /* [columns][n] */
   sph_columns upper;
@@ -68,6 +69,7 @@ static int analyse(sph_linear *solver, const sph_csr *A, sph_error *error)
   cholesky *s = solver->own;
   if (sph_columns_set(&s->upper, A, 1, error)) return SPH_ERR_MEMORY;
   cholmod_sparse upper = view(s);
+  s->factored = 0;
   cholmod_l_free_factor(&s->L, &s->common);
   s->L = cholmod_l_analyze(&upper, &s->common);
   if (!s->L) return out_of_memory(s, A, error);
@@ -80,7 +82,8 @@ static int prepare(sph_linear *solver, const sph_csr *A, int change, sph_error *
   cholesky *s = solver->own;
   int status = change == SPH_LINEAR_PATTERN ? analyse(solver, A, error)
                                             : sph_columns_set(&s->upper, A, 1, error);
-  if (status) return status;
+  if (status || (s->factored && !s->upper.changed)) return status;
+  s->factored = 0;
   cholmod_sparse upper = view(s);
   sph_blas_threads_hold();
   cholmod_l_factorize(&upper, s->L, &s->common);
@@ -89,7 +92,9 @@ static int prepare(sph_linear *solver, const sph_csr *A, int change, sph_error *
   if (s->common.status == CHOLMOD_NOT_POSDEF)
     return sph_linear_refuse(solver, "the matrix is not positive definite: pivot %zu of %ld",
                              s->L->minor + 1, A->n);
-  return s->common.status < 0 ? out_of_memory(s, A, error) : SPH_OK;
+  if (s->common.status < 0) return out_of_memory(s, A, error);
+  s->factored = 1;
+  return SPH_OK;
 }
 
 static int solve(sph_linear *solver, const sph_linear_task *task, sph_error *error)

@@ -156,8 +156,7 @@ static int prepare(sph_linear *solver, const sph_csr *A, int change, sph_error *
 static int solve(sph_linear *solver, const sph_linear_task *task, sph_error *error)
 {
   ic0 *s = solver->own;
-  (void)error;
-  return sph_linear_pcg_solve(&s->pcg, solver, task);
+  return sph_linear_pcg_solve(&s->pcg, solver, task, error);
 }
 
 static void done(sph_linear *solver)

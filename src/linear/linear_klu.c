@@ -78,6 +78,7 @@ static int prepare(sph_linear *solver, const sph_csr *A, int change, sph_error *
     if (!s->symbolic) return out_of_memory(s, A, error);
     solver->stats.analyses++;
   }
+  if (s->numeric && !s->A.changed) return SPH_OK;
   int made = factorise(s);
   solver->stats.factorisations++;
   if (!made && s->common.status < 0) return out_of_memory(s, A, error);

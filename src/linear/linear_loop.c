@@ -15,3 +15,8 @@ const sph_linear_loops *sph_linear_loop_get(int isa, int width)
 {
   return &tables[isa]->width[width];
 }
+
+int sph_linear_loop_copy(int isa, const sph_linear_copy *copy, const sph_csr *A, long from, long to)
+{
+  return tables[isa]->copy(copy, A, from, to);
+}

@@ -71,18 +71,42 @@ static double estimate_get(const estimate *error, const double rho[MOST], int d)
   return sum;
 }
 
+/* *size: the square of the largest error that x = 0 can have, as bounded. */
 static void estimate_start(estimate *error, const sph_pcg *s, const sph_linear_task *task,
-                           int first)
+                           int first, double *size)
 {
   const double *F = task->A->floor;
+  *size = 0;
   for (int c = 0; c < s->d; c++) {
-    const double *w = task->weight ? task->weight[first + c] : NULL;
-    double most = 0;
-    for (long i = 0; i < s->n; i++) most = fmax(most, w ? w[i] * w[i] / F[i] : 1 / F[i]);
+    const double *w = task->weight ? task->weight[first + c] : NULL, *b = task->b[first + c];
+    double most = 0, sum = 0;
+    for (long i = 0; i < s->n; i++) {
+      most = fmax(most, w ? w[i] * w[i] / F[i] : 1 / F[i]);
+      sum += b[i] * b[i] / F[i];
+    }
     error->scale[c] = most;
     error->g[c] = 1 / s->mu;
+    *size += most * sum;
   }
   error->allowed = task->tolerance * task->tolerance * (double)s->n * s->d;
+}
+
+/* Takes the copy for what comes, if it is exact enough for an x that is bounded by `size`: it may
+ * have a tenth of the error that is allowed. */
+static int choose_rows(sph_pcg *s, const sph_linear_task *task, estimate *error, double size,
+                       sph_error *failure)
+{
+  const double share = 0.1, lost = SPH_LINEAR_COPY_ERROR * SPH_LINEAR_COPY_ERROR * size;
+  s->single = lost < share * share * error->allowed;
+  if (s->single && !s->copied) {
+    int status = sph_linear_rows_copy(&s->copy, task->A, s->isa, s->threads, failure);
+    if (status) return status;
+    s->copied = 1;
+  }
+  s->single = s->single && s->copy.right;
+  s->v.A = s->single ? sph_linear_rows_single(&s->copy) : sph_linear_rows_exact(task->A);
+  if (s->single) error->allowed *= (1 - share) * (1 - share);
+  return SPH_OK;
 }
 
 /* Twice the iterations after which theory has the error below tolerance, for eigenvalues of P^-1 A
@@ -101,12 +125,24 @@ static int not_definite(sph_linear *solver, double pq, double rho, int column)
                            pq, rho, solver->stats.last, column);
 }
 
-static int iterate(sph_pcg *s, sph_linear *solver, estimate *error)
+/* r = b - A x, z = P^-1 r.  Multiplies by the copy from here on, or, since it has only the change of
+ * x to find, behind this. */
+static int begin(sph_pcg *s, const sph_linear_task *task, estimate *error, double size,
+                 double rho[MOST], sph_error *failure)
+{
+  int status = choose_rows(s, task, error, size, failure);
+  if (status) return status;
+  run(s, s->loops->residual[s->single], rho);
+  step(s, rho); /* with alpha = 0 */
+  const double now = estimate_get(error, rho, s->d);
+  if (s->single || now <= error->allowed) return SPH_OK;
+  return choose_rows(s, task, error, now, failure);
+}
+
+static int iterate(sph_pcg *s, sph_linear *solver, estimate *error, double rho[MOST])
 {
   const int d = s->d;
-  double rho[MOST], pq[MOST], next[MOST], now;
-  run(s, s->loops->residual, rho);
-  step(s, rho); /* with alpha = 0 */
+  double pq[MOST], next[MOST], now;
   const long most = most_iterations(s, fmax(1, estimate_get(error, rho, d) / error->allowed));
   for (long k = 0; !((now = estimate_get(error, rho, d)) <= error->allowed); k++) {
     if (!isfinite(now))
@@ -116,7 +152,7 @@ static int iterate(sph_pcg *s, sph_linear *solver, estimate *error)
           solver, "%ld iterations were not enough: the error is bounded by %g times the tolerance",
           k, sqrt(now / error->allowed));
     run(s, s->loops->turn, next);
-    run(s, s->loops->product, pq);
+    run(s, s->loops->product[s->single], pq);
     COLUMNS(c)
     {
       int done = rho[c] <= DBL_MIN; /* of this column there is nothing left to improve */
@@ -158,15 +194,17 @@ static void load(sph_pcg *s, const sph_linear_task *task, int first)
   for (int c = 0; c < MOST; c++) s->v.alpha[c] = s->v.beta[c] = 0;
 }
 
-int sph_linear_pcg_solve(sph_pcg *s, sph_linear *solver, const sph_linear_task *task)
+int sph_linear_pcg_solve(sph_pcg *s, sph_linear *solver, const sph_linear_task *task,
+                         sph_error *failure)
 {
   int status = SPH_OK;
-  s->v.A = task->A;
   for (int first = 0; !status && first < task->columns; first += MOST) {
     estimate error;
+    double size, rho[MOST];
     load(s, task, first);
-    estimate_start(&error, s, task, first);
-    status = iterate(s, solver, &error);
+    estimate_start(&error, s, task, first, &size);
+    status = begin(s, task, &error, size, rho, failure);
+    if (!status) status = iterate(s, solver, &error, rho);
     for (long i = 0; !status && i < s->n; i++)
       for (int c = 0; c < s->d; c++) task->x[first + c][i] = s->v.x[i * s->width + c];
   }
@@ -206,6 +244,7 @@ int sph_linear_pcg_prepare(sph_pcg *s, const sph_csr *A, sph_error *error)
   int status = reserve(s, A->n, error);
   if (status) return status;
   s->n = A->n;
+  s->copied = 0;
   s->chunks = (A->n + CHUNK - 1) / CHUNK;
   s->mu = 1;
   for (long i = 0; i < A->n; i++) {
@@ -225,6 +264,7 @@ void sph_linear_pcg_free(sph_pcg *s)
   sph_memory_free(s->v.p);
   sph_memory_free(s->v.q);
   sph_memory_free(s->part);
+  sph_linear_rows_free(&s->copy);
   s->v = (sph_linear_vectors){0};
   s->inverse = s->part = NULL;
   s->room = 0;
@@ -248,8 +288,7 @@ static int prepare(sph_linear *solver, const sph_csr *A, int change, sph_error *
 
 static int solve(sph_linear *solver, const sph_linear_task *task, sph_error *error)
 {
-  (void)error;
-  return sph_linear_pcg_solve(solver->own, solver, task);
+  return sph_linear_pcg_solve(solver->own, solver, task, error);
 }
 
 static void done(sph_linear *solver)

@@ -159,6 +159,71 @@ static void values_change(void **state)
   sph_csr_free(&p.A);
 }
 
+/* Entries between rows more than `apart` apart are zero: they stay in the pattern. */
+static void cut(sph_csr *A, long apart)
+{
+  for (long i = 0; i < A->n; i++)
+    for (long k = A->start[i]; k < A->start[i + 1]; k++)
+      if (labs(A->column[k] - i) > apart) {
+        A->diagonal[i] += A->value[k];
+        A->value[k] = 0;
+      }
+}
+
+/* Tolerances down to rounding, though products may be made in single precision meanwhile; entries
+ * that are zero; matrices in any units. */
+static void tolerances_hold(void **state)
+{
+  static const double unit[] = {1, 1e-44, 1e45};
+  (void)state;
+  for (int m = 0; m < 2; m++)
+    for (int u = 0; u < 3; u++) {
+      sph_linear *solver = create(m ? "pcg-ic0" : "pcg-jacobi", 1);
+      spd_make(&p.A, 2, 20, 1e6, 4);
+      cut(&p.A, 30);
+      fill(2, 5);
+      for (long i = 0; i < p.A.n; i++) p.b[0][i] = p.A.floor[i]; /* of x = 1 */
+      solve_dense();
+      for (long i = 0; i < p.A.n; i++) {
+        p.A.diagonal[i] *= unit[u], p.A.floor[i] *= unit[u];
+        for (long k = p.A.start[i]; k < p.A.start[i + 1]; k++) p.A.value[k] *= unit[u];
+        for (int c = 0; c < 2; c++) p.b[c][i] *= unit[u];
+      }
+      for (int k = 2; k <= 12; k += 2) {
+        const double tolerance = pow(10, -k);
+        for (int c = 0; c < 2; c++)
+          for (long i = 0; i < p.A.n; i++) p.x[c][i] = 0;
+        if (solve(solver, 1, 1, tolerance)) fail_msg("%s", sph_linear_reason(solver));
+        if (!(weighted_error() <= tolerance))
+          fail_msg("%s, unit %g, tolerance %g: error %g", sph_linear_used(solver), unit[u],
+                   tolerance, weighted_error());
+      }
+      sph_linear_free(solver);
+    }
+  sph_csr_free(&p.A);
+}
+
+/* New numbers for the same matrix: direct methods see that it is the same. */
+static void numbers_change(void **state)
+{
+  static const char *const direct[] = {"cholmod-supernodal", "cholmod-simplicial", "klu"};
+  (void)state;
+  spd_make(&p.A, 2, 12, 1e3, 3);
+  for (int m = 0; m < 3; m++) {
+    sph_linear *solver = create(direct[m], 1);
+    sph_linear_stats stats;
+    for (int k = 0; k < 4; k++) {
+      fill(1, 20 + (uint64_t)k);
+      if (k == 2) p.A.diagonal[7] += 1e-3;
+      expect_solved(solver, 1, k, direct[m]);
+    }
+    sph_linear_get_stats(solver, &stats);
+    assert_true(stats.factorisations == 2 && stats.analyses == 1);
+    sph_linear_free(solver);
+  }
+  sph_csr_free(&p.A);
+}
+
 /* Blocks without any entry between them, among them single rows; one row; none. */
 static void blocks_and_small_ones(void **state)
 {
@@ -357,13 +422,14 @@ static void bounds_are_close(void **state)
   sph_csr_free(&p.A);
 }
 
-/* Solves `count` times; the values or the pattern change each time, or they do not. */
+/* Solves `count` times; the values (2: their number), or the pattern, change each time, or do not. */
 static const char *after(sph_linear *solver, int count, int values, int pattern)
 {
   static long number = 100;
   number++;
   for (int k = 0; k < count; k++) {
     number += values || pattern;
+    if (values == 1) p.A.diagonal[0] += 1e-9;
     for (long i = 0; i < p.A.n; i++) p.x[0][i] = 0;
     if (solve(solver, pattern ? number : 1, number, 1e-6))
       fail_msg("%s", sph_linear_reason(solver));
@@ -373,14 +439,14 @@ static const char *after(sph_linear *solver, int count, int values, int pattern)
 }
 
 /* What "auto" takes for dim, condition and a matrix that stays (0), or changes its values (1), or
- * its pattern (2). */
+ * its pattern (2), or only the number of its values (3). */
 static void auto_takes(const char *method, int dim, double condition, int change, int count)
 {
   sph_linear *solver = create("auto", 1);
   spd_make(&p.A, dim, dim == 1 ? 300 : 17, condition, 3);
   fill(1, 2);
   solve_dense();
-  const char *used = after(solver, count, change == 1, change == 2);
+  const char *used = after(solver, count, change == 1 ? 1 : change == 3 ? 2 : 0, change == 2);
   if (strcmp(used, method))
     fail_msg("%dD, condition %g, change %d: %s, not %s", dim, condition, change, used, method);
   sph_linear_free(solver);
@@ -396,6 +462,7 @@ static void auto_counts(void **state)
   auto_takes("pcg-jacobi", 2, 1e2, 2, 60);
   auto_takes("pcg-jacobi", 2, 1e4, 0, 1);
   auto_takes("cholmod", 2, 1e4, 0, 60);
+  auto_takes("cholmod", 2, 1e4, 3, 60);
   sph_csr_free(&p.A);
 }
 
@@ -478,6 +545,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(same_as_dense),
       cmocka_unit_test(values_change),
+      cmocka_unit_test(tolerances_hold),
+      cmocka_unit_test(numbers_change),
       cmocka_unit_test(blocks_and_small_ones),
       cmocka_unit_test(any_signs),
       cmocka_unit_test(kershaw),
