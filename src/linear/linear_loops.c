@@ -134,7 +134,7 @@ LOOP solve(const sph_linear_factor *L, const int W, const double *restrict r, do
 /* Diagonals next to which what single precision cannot hold does not count. */
 static const double SMALLEST = 1e-18, LARGEST = 1e30;
 
-/* What rounding takes from the sum of a row, which its diagonal is given; *high: its largest entry. */
+/* What rounding takes from the sum of a row: its diagonal gets it.  *high: the largest entry. */
 static double rounding(const double *restrict value, long n, double *high)
 {
   double lost[4] = {0}, most[4] = {0};

@@ -125,8 +125,8 @@ static int not_definite(sph_linear *solver, double pq, double rho, int column)
                            pq, rho, solver->stats.last, column);
 }
 
-/* r = b - A x, z = P^-1 r.  Multiplies by the copy from here on, or, since it has only the change of
- * x to find, behind this. */
+/* r = b - A x, z = P^-1 r.  The copy serves from here on, or behind this, where only the change of
+ * x is left to find. */
 static int begin(sph_pcg *s, const sph_linear_task *task, estimate *error, double size,
                  double rho[MOST], sph_error *failure)
 {

@@ -422,7 +422,7 @@ static void bounds_are_close(void **state)
   sph_csr_free(&p.A);
 }
 
-/* Solves `count` times; the values (2: their number), or the pattern, change each time, or do not. */
+/* Solves `count` times; each time the values (2: their number alone) or the pattern change. */
 static const char *after(sph_linear *solver, int count, int values, int pattern)
 {
   static long number = 100;
