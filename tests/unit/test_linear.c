@@ -172,34 +172,42 @@ static void cut(sph_csr *A, long apart)
 
 /* Tolerances down to rounding, though products may be made in single precision meanwhile; entries
  * that are zero; matrices in any units. */
+static void expect_tolerances(const char *name, double unit, int rough)
+{
+  sph_linear *solver = create(name, 1);
+  spd_make(&p.A, 2, 20, 1e6, 4);
+  cut(&p.A, 30);
+  fill(2, 5);
+  for (long i = 0; !rough && i < p.A.n; i++) { /* x = 1, and another smooth one */
+    p.b[0][i] = p.A.floor[i];
+    p.b[1][i] = p.A.floor[i] * sin(0.1 * (double)i);
+  }
+  solve_dense();
+  for (long i = 0; i < p.A.n; i++) {
+    p.A.diagonal[i] *= unit, p.A.floor[i] *= unit;
+    for (long k = p.A.start[i]; k < p.A.start[i + 1]; k++) p.A.value[k] *= unit;
+    for (int c = 0; c < 2; c++) p.b[c][i] *= unit;
+  }
+  for (int k = 2; k <= 10; k++) {
+    const double tolerance = pow(10, -k);
+    for (int c = 0; c < 2; c++)
+      for (long i = 0; i < p.A.n; i++) p.x[c][i] = 0;
+    if (solve(solver, 1, 1, tolerance)) fail_msg("%s", sph_linear_reason(solver));
+    if (!(weighted_error() <= tolerance))
+      fail_msg("%s, unit %g, rough %d, tolerance %g: error %g", name, unit, rough, tolerance,
+               weighted_error());
+  }
+  sph_linear_free(solver);
+}
+
 static void tolerances_hold(void **state)
 {
-  static const double unit[] = {1, 1e-44, 1e45};
+  static const double unit[] = {1, 1e-50, 1e45};
   (void)state;
-  for (int m = 0; m < 2; m++)
-    for (int u = 0; u < 3; u++) {
-      sph_linear *solver = create(m ? "pcg-ic0" : "pcg-jacobi", 1);
-      spd_make(&p.A, 2, 20, 1e6, 4);
-      cut(&p.A, 30);
-      fill(2, 5);
-      for (long i = 0; i < p.A.n; i++) p.b[0][i] = p.A.floor[i]; /* of x = 1 */
-      solve_dense();
-      for (long i = 0; i < p.A.n; i++) {
-        p.A.diagonal[i] *= unit[u], p.A.floor[i] *= unit[u];
-        for (long k = p.A.start[i]; k < p.A.start[i + 1]; k++) p.A.value[k] *= unit[u];
-        for (int c = 0; c < 2; c++) p.b[c][i] *= unit[u];
-      }
-      for (int k = 2; k <= 12; k += 2) {
-        const double tolerance = pow(10, -k);
-        for (int c = 0; c < 2; c++)
-          for (long i = 0; i < p.A.n; i++) p.x[c][i] = 0;
-        if (solve(solver, 1, 1, tolerance)) fail_msg("%s", sph_linear_reason(solver));
-        if (!(weighted_error() <= tolerance))
-          fail_msg("%s, unit %g, tolerance %g: error %g", sph_linear_used(solver), unit[u],
-                   tolerance, weighted_error());
-      }
-      sph_linear_free(solver);
-    }
+  for (int k = 0; k < 6; k++) {
+    expect_tolerances("pcg-jacobi", unit[k / 2], k % 2);
+    expect_tolerances("pcg-ic0", unit[k / 2], k % 2);
+  }
   sph_csr_free(&p.A);
 }
 
@@ -462,7 +470,8 @@ static void auto_counts(void **state)
   auto_takes("pcg-jacobi", 2, 1e2, 2, 60);
   auto_takes("pcg-jacobi", 2, 1e4, 0, 1);
   auto_takes("cholmod", 2, 1e4, 0, 60);
-  auto_takes("cholmod", 2, 1e4, 3, 60);
+  auto_takes("pcg-jacobi", 2, 1e2, 1, 60);
+  auto_takes("cholmod", 2, 1e2, 3, 60);
   sph_csr_free(&p.A);
 }
 
