@@ -45,9 +45,10 @@
   .set_max_err_test_fails = SPH_SUNDIALS(Step, SetMaxErrTestFails)
 
 #if SPH_SUNDIALS_NUMBER >= 60600
-#define RELAX(Step)                               \
-  .set_relax_fn = SPH_SUNDIALS(Step, SetRelaxFn), \
-  .set_relax_res_tol = SPH_SUNDIALS(Step, SetRelaxResTol),
+#define RELAX(Step)                                        \
+  .set_relax_fn = SPH_SUNDIALS(Step, SetRelaxFn),          \
+  .set_relax_res_tol = SPH_SUNDIALS(Step, SetRelaxResTol), \
+  .set_relax_tol = SPH_SUNDIALS(Step, SetRelaxTol),
 #else
 #define RELAX(Step)
 #endif

@@ -59,6 +59,7 @@ typedef struct sph_sundials_calls {
 #if SPH_SUNDIALS_NUMBER >= 60600 /* of ERKStep and ARKStep */
   int (*set_relax_fn)(void *memory, ARKRelaxFn energy, ARKRelaxJacFn gradient);
   int (*set_relax_res_tol)(void *memory, sunrealtype tolerance);
+  int (*set_relax_tol)(void *memory, sunrealtype relative, sunrealtype absolute);
 #endif
 #if SPH_SUNDIALS_NUMBER >= 60700
   int (*set_adapt_controller)(void *memory, SUNAdaptController controller);

@@ -80,9 +80,8 @@ static void add_choices(sph_text *text, const sph_case_key *key)
   char word[80];
   if (key->type != SPH_CASE_WORD_T && key->type != SPH_CASE_WORDS_T) return;
   if (!strcmp(key->more, "@integrators")) { /* they depend on the SUNDIALS that is installed */
-    sph_text_add(text,
-                 "`leapfrog`, `dkd`, ..., `erk:`, `imex:`, `mri:`, `sprk:`, `lsrk:` and a table: "
-                 "`sphode info integrators`");
+    sph_text_add(text, "`leapfrog`, `dkd`, ..., `erk:`, `imex:`, `mri:`, `sprk:`, `lsrk:` and a "
+                       "table: `sphode info integrators`");
     return;
   }
   for (int k = 0; sph_case_schema_choice(key, k, word); k++)

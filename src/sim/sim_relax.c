@@ -14,16 +14,28 @@
 
 #include "sim_rhs.h"
 
-enum { CHUNK = 2048, PARALLEL_MIN = 4096 };
+enum { CHUNK = 256, PARALLEL_MIN = 4096 };
 
 static int total(const sph_group *group)
 {
   return sph_group_data_energy(group) == SPH_TOTAL_ENERGY;
 }
 
-/* [0]: energy of a particle, [1]: of magnitudes. */
-static void add_energy(const sph_sim *sim, const sph_group *group, const sph_view *view, long i,
-                       double sum[2])
+/* Rounding is the limit of relaxation: sums with what it loses (Kahan 1965). */
+typedef struct sum {
+  double value, lost;
+} sum;
+
+static void add(sum *s, double x)
+{
+  double y = x - s->lost, t = s->value + y;
+  s->lost = (t - s->value) - y;
+  s->value = t;
+}
+
+/* Of a particle: [0] its energy, [1] the magnitudes of what that consists of. */
+static void add_particle(const sph_sim *sim, const sph_group *group, const sph_view *view, long i,
+                         sum to[2])
 {
   const int elastic = !group->eos.thermal && group->eos.elastic_energy;
   double x[3] = {0}, v2 = 0, u = view->energy ? view->energy[i] : 0;
@@ -34,37 +46,39 @@ static void add_energy(const sph_sim *sim, const sph_group *group, const sph_vie
   if (elastic) u += group->eos.elastic_energy(&group->eos, view->rho[i]);
   const double m = view->m[i], kinetic = total(group) ? 0 : m * v2 / 2;
   const double potential = m * sph_term_set_potential(&sim->terms, x);
-  sum[0] += kinetic + m * u + potential;
-  sum[1] += kinetic + fabs(m * u) + fabs(potential);
+  add(&to[0], kinetic);
+  add(&to[0], m * u);
+  add(&to[0], potential);
+  add(&to[1], kinetic + fabs(m * u) + fabs(potential));
 }
 
-/* Chunks of particles, summed in order. */
-static void add_group(const sph_sim *sim, const sph_group *group, const sph_view *view,
-                      double *energy, double *parts)
+/* Chunks of particles, added in order. */
+static void add_group(const sph_sim *sim, const sph_group *group, const sph_view *view, sum to[2])
 {
   const long chunks = (view->n + CHUNK - 1) / CHUNK;
   double *part = sim->sorted[group->index].sum[0]; /* free between evaluations */
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (view->n > PARALLEL_MIN)
   for (long k = 0; k < chunks; k++) {
     const long end = (k + 1) * CHUNK < view->n ? (k + 1) * CHUNK : view->n;
-    part[2 * k] = part[2 * k + 1] = 0;
-    for (long i = k * CHUNK; i < end; i++) add_energy(sim, group, view, i, part + 2 * k);
+    sum own[2] = {{0, 0}, {0, 0}};
+    for (long i = k * CHUNK; i < end; i++) add_particle(sim, group, view, i, own);
+    part[2 * k] = own[0].value;
+    part[2 * k + 1] = own[1].value;
   }
-  for (long k = 0; k < chunks; k++) {
-    *energy += part[2 * k];
-    *parts += part[2 * k + 1];
-  }
+  for (long k = 0; k < 2 * chunks; k++) add(&to[k % 2], part[k]);
 }
 
 int sph_sim_relax_energy(N_Vector y, double *energy, double *parts, void *ctx)
 {
   const sph_sim *sim = ctx;
-  *energy = *parts = 0;
+  sum all[2] = {{0, 0}, {0, 0}};
   for (int g = 0; g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
     const sph_view view = sph_group_data_view(group, sph_nvector_data(y), NULL);
-    if (!group->wall) add_group(sim, group, &view, energy, parts);
+    if (!group->wall) add_group(sim, group, &view, all);
   }
+  *energy = all[0].value;
+  *parts = all[1].value;
   return *parts < INFINITY ? SPH_OK : SPH_RETRY;
 }
 

@@ -260,7 +260,10 @@ int sph_fast_evolve(sph_fast *fast, const sph_fast_rates *rates, double t0, doub
     if (status) break;
     begun = 1;
     double left = t1 - t, n = steps(fast, left), h = left / n, error = 0;
-    if (!(h > SHORTEST * length)) return SPH_RETRY; /* a shorter slow step may do */
+    if (!(h > SHORTEST * length)) { /* a shorter slow step may do */
+      fast->it->reason = "the fast part wants ever shorter steps";
+      return SPH_RETRY;
+    }
     refused = stages(fast, t, h, y);
     if (!refused) error = estimate(fast, t, h);
     if (fast->adaptive) control(fast, h, refused ? INFINITY : error);

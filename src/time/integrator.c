@@ -272,9 +272,10 @@ static int retry(sph_integrator *it, const sph_attempt *a, int halvings, int sta
   if (halvings >= it->def.retries || it->def.dt_fixed > 0)
     return sph_error_set(
         it->problem.error, SPH_ERR_STEP,
-        "%s: step at t = %.9g s is not admissible with dt = %.3g s after %d halvings%s",
+        "%s: step at t = %.9g s is not admissible with dt = %.3g s after %d halvings%s%s%s",
         it->info.name, it->time, a->h, halvings,
-        it->def.dt_fixed > 0 ? " (dt_fixed allows none)" : "");
+        it->def.dt_fixed > 0 ? " (dt_fixed allows none)" : "", it->reason ? ": " : "",
+        it->reason ? it->reason : "");
   it->cap = a->h / 2;
   it->stats.retries++;
   status = it->stepper->reject(it);
@@ -306,6 +307,7 @@ int sph_integrator_step(sph_integrator *it, double t_stop)
     sph_attempt a = plan(it, t_stop);
     status = too_small(it, &a);
     if (status) return status;
+    it->reason = NULL;
     status = it->stepper->attempt(it, &a, t_stop);
     if (!status && it->problem.admissible)
       status = it->problem.admissible(a.t, it->y, it->problem.ctx);

@@ -118,7 +118,10 @@ static int outcome(sph_integrator *it, int flag)
   if (sph_nvector_lost(it->y)) return sph_integrator_fail(it, SPH_ERR_MEMORY, "out of memory");
   if (flag >= 0) return SPH_OK;
   if (it->rhs_status) return it->rhs_status;
-  if (sph_relax_failed(flag)) return SPH_RETRY;
+  if (sph_relax_failed(flag)) {
+    it->reason = "no step near it keeps the energy";
+    return SPH_RETRY;
+  }
   int status = flag == ARK_MEM_FAIL ? SPH_ERR_MEMORY : SPH_ERR_STEP;
   return sph_integrator_fail(it, status, own->text[0] ? own->text : "SUNDIALS failed");
 }

@@ -53,6 +53,7 @@ struct sph_integrator {
   double cap;            /* of the next step after a retry, else INFINITY [s] */
   int cause;             /* of limit: enum sph_bound */
   int rhs_status;        /* of the last evaluation */
+  const char *reason;    /* why the attempt is to be repeated, where no evaluation tells; or NULL */
   int bound;
   sph_step_stats stats;
 };

@@ -50,8 +50,9 @@ int sph_relax_check(const sph_integrator_def *def, const sph_integrator_info *in
 
 #if SPH_SUNDIALS_NUMBER >= SINCE
 
-/* ARKODE compares its residual with a number: this much of what the energy consists of. */
-static const double RESIDUAL = 10 * DBL_EPSILON;
+/* Newton's method ends with a residual of this much of what the energy consists of, or behind a
+ * change of gamma after which there is nothing left but rounding. */
+static const double RESIDUAL = 4 * DBL_EPSILON, CHANGE = 1e-9;
 
 static int energy(N_Vector y, sunrealtype *e, void *data)
 {
@@ -81,7 +82,9 @@ int sph_relax_attach(sph_integrator *it)
   if (!it->problem.energy || !it->problem.energy_gradient)
     return sph_error_set(it->problem.error, SPH_ERR_ARGUMENT,
                          "relax: there is no energy that is a function of the state");
-  return own->call->set_relax_fn(own->memory, energy, gradient) ? SPH_ERR_MEMORY : SPH_OK;
+  int failed = own->call->set_relax_fn(own->memory, energy, gradient) ||
+               own->call->set_relax_tol(own->memory, CHANGE, CHANGE);
+  return failed ? SPH_ERR_MEMORY : SPH_OK;
 }
 
 int sph_relax_failed(int flag) { return flag == ARK_RELAX_FAIL; }

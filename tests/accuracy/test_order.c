@@ -34,8 +34,25 @@ static void start(sph_group *fluid)
   }
 }
 
-/* Positions, velocities, density after T, in units of their scales; epsilon: that of XSPH. */
-static void run(const char *method, double epsilon, int steps, double state[FIELDS][N])
+/* What is there besides continuity and pressure. */
+typedef struct setup {
+  double epsilon;   /* of XSPH */
+  int shaken;       /* by a force that turns about with time */
+  const char *fast; /* that is the fast part: "shaking", "waves" (all else); NULL: there is none */
+} setup;
+
+static int shake(const sph_term *term, const sph_particles *p)
+{
+  (void)term;
+  for (long i = 0; i < p->n; i++) {
+    p->a[0][i] += 300 * sin(200 * p->t + 2 * PI * p->x[1][i]);
+    p->a[1][i] += 200 * cos(150 * p->t + 2 * PI * p->x[0][i]) * (1 + 0.2 * p->v[0][i]);
+  }
+  return SPH_OK;
+}
+
+/* Positions, velocities, density after T, in units of their scales. */
+static void run(const char *method, const setup *what, int steps, double state[FIELDS][N])
 {
   static const char *const field[] = {"position", "position", "velocity", "velocity", "density"};
   const double rho0 = 1000, scale[] = {1.0 / ACROSS, 1.0 / ACROSS, V, V, rho0 * V * V / c0 / c0};
@@ -51,8 +68,20 @@ static void run(const char *method, double epsilon, int steps, double state[FIEL
   start(fluid);
   sph_sim_add_term(sim, sph_term_continuity());
   sph_sim_add_term(sim, sph_term_pressure());
-  if (epsilon > 0) sph_sim_add_term(sim, sph_term_xsph(epsilon));
-  sph_sim_set_integrator(sim, &(sph_integrator_def){.method = method, .dt_fixed = T / steps});
+  if (what->epsilon > 0) sph_sim_add_term(sim, sph_term_xsph(what->epsilon));
+  if (what->shaken)
+    sph_sim_add_term(sim, (sph_term){.name = "shaking", .body = shake, .reads = ""});
+  sph_integrator_def def = {.method = method, .dt_fixed = T / steps};
+  if (what->fast) {
+    def.fast_method = "erk:verner-8-5-6";
+    def.fast_step = T / steps / 4;
+  }
+  if (what->fast && !strcmp(what->fast, "shaking")) sph_sim_set_part(sim, "shaking", "fast");
+  if (what->fast && !strcmp(what->fast, "waves")) {
+    sph_sim_set_part(sim, "continuity", "fast");
+    sph_sim_set_part(sim, "pressure", "fast");
+  }
+  sph_sim_set_integrator(sim, &def);
   if (sph_sim_run(sim, T)) fail_msg("%s: %s", method, sph_sim_error(sim));
   for (int f = 0; f < FIELDS; f++) {
     const double *a = sph_group_read(fluid, field[f], f % 2 && f < 4);
@@ -78,21 +107,22 @@ static int first_steps(const sph_integrator_info *info)
   return more * (int)ceil(T / (0.5 * info->stability * h / c0));
 }
 
-static void reference(double epsilon, double exact[FIELDS][N])
+static void reference(const setup *what, double exact[FIELDS][N])
 {
   static double coarser[FIELDS][N];
-  run("erk:fehlberg-13-7-8", epsilon, 200, exact);
-  run("erk:fehlberg-13-7-8", epsilon, 100, coarser);
+  const setup whole = {.epsilon = what->epsilon, .shaken = what->shaken};
+  run("erk:fehlberg-13-7-8", &whole, 200, exact);
+  run("erk:fehlberg-13-7-8", &whole, 100, coarser);
   assert_true(distance(coarser, exact) < 1e-12);
 }
 
-static void check(const sph_integrator_info *info, double epsilon, double exact[FIELDS][N])
+static void check(const sph_integrator_info *info, const setup *what, double exact[FIELDS][N])
 {
   static double found[FIELDS][N];
   double error[4];
   int n = first_steps(info);
   for (int j = 0; j < 4; j++) {
-    run(info->name, epsilon, n << j, found);
+    run(info->name, what, n << j, found);
     error[j] = distance(found, exact);
   }
   double last = log2(error[2] / error[3]), before = log2(error[1] / error[2]);
@@ -106,11 +136,12 @@ static void every_scheme_has_its_order(void **state)
   static double exact[FIELDS][N];
   sph_integrator_info info;
   int checked = 0;
+  const setup plain = {0};
   (void)state;
-  reference(0, exact);
+  reference(&plain, exact);
   for (int k = 0; sph_integrator_info_get(k, &info); k++) {
     if (info.order > 4 || info.wants) continue;
-    check(&info, 0, exact);
+    check(&info, &plain, exact);
     checked++;
   }
   assert_true(checked >= 17);
@@ -122,19 +153,39 @@ static void drifting_positions_keep_it(void **state)
   static double exact[FIELDS][N];
   sph_integrator_info info;
   int checked = 0;
+  const setup drifting = {.epsilon = 0.5};
   (void)state;
-  reference(0.5, exact);
+  reference(&drifting, exact);
   for (int k = 0; sph_integrator_info_get(k, &info); k++) {
     if (!strncmp(info.name, "erk:", 4) || info.wants) continue;
-    check(&info, 0.5, exact);
+    check(&info, &drifting, exact);
     checked++;
   }
   assert_true(checked >= 7);
 }
 
+/* Slow waves with a fast force beside them, and fast waves with a slow one. */
+static void couplings_of_parts_keep_it(void **state)
+{
+  static double exact[FIELDS][N];
+  static const char *const fast[] = {"shaking", "waves"};
+  sph_integrator_info info;
+  int checked = 0;
+  (void)state;
+  reference(&(setup){.shaken = 1}, exact);
+  for (int k = 0; sph_integrator_info_get(k, &info); k++)
+    for (int f = 0; f < 2; f++) {
+      if (info.order > 4 || !(info.wants & SPH_WANTS_FAST)) continue;
+      check(&info, &(setup){.shaken = 1, .fast = fast[f]}, exact);
+      checked++;
+    }
+  assert_true(checked >= 6);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(every_scheme_has_its_order),
-                                     cmocka_unit_test(drifting_positions_keep_it)};
+                                     cmocka_unit_test(drifting_positions_keep_it),
+                                     cmocka_unit_test(couplings_of_parts_keep_it)};
   return cmocka_run_group_tests_name("order", tests, NULL, NULL);
 }

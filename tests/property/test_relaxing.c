@@ -27,7 +27,8 @@ enum {
   TOTAL = 8,  /* the gas integrates u + v^2/2 */
   ARTIFICIAL = 16,
   LAMINAR = 32,
-  SUMMED = 64
+  SUMMED = 64,
+  ROUGH = 128 /* noise in everything, else smooth */
 };
 
 static double noise(long k) { return sin(1 + 12.9898 * (double)k * (double)(k % 7 + 1)); }
@@ -56,15 +57,20 @@ static sph_sim *make(unsigned what, const sph_integrator_def *def)
     sph_sim_add_term(sim, sph_term_gravity((double[3]){0.3, -1, 0}));
     sph_sim_add_term(sim, sph_term_harmonic(2));
   }
-  for (int c = 0; c < 2; c++) {
-    double *x = sph_group_write(box, "position", c), *v = sph_group_write(box, "velocity", c);
-    for (long i = 0; x && v && i < sph_group_count(box); i++) {
-      x[i] += 0.1 * dx * noise(2 * i + c);
-      v[i] = (c ? 1 : -1) * 0.5 * sin(2 * pi * ((double)i / ACROSS / ACROSS + 0.25 * c));
-    }
-  }
+  const double rough = what & ROUGH ? 1 : 0;
+  double *x = sph_group_write(box, "position", 0), *y = sph_group_write(box, "position", 1);
+  double *vx = sph_group_write(box, "velocity", 0), *vy = sph_group_write(box, "velocity", 1);
+  double *rho = what & SUMMED ? NULL : sph_group_write(box, "density", 0);
   double *u = what & (GAS | HEAT) ? sph_group_write(box, "energy", 0) : NULL;
-  for (long i = 0; u && i < sph_group_count(box); i++) u[i] = 2 + 0.1 * noise(i);
+  for (long i = 0; x && y && vx && vy && i < sph_group_count(box); i++) {
+    double a = 2 * pi * x[i], b = 2 * pi * y[i];
+    vx[i] = 0.1 * (sin(a) * cos(b) + rough * noise(3 * i));
+    vy[i] = 0.1 * (-cos(a) * sin(b) + 0.5 * cos(a));
+    x[i] += 0.02 * dx * (sin(b) + rough * noise(i));
+    y[i] += 0.02 * dx * cos(a + b);
+    if (rho) rho[i] *= 1 + 1e-3 * (cos(a) + rough * noise(i + 7));
+    if (u) u[i] = 2 + 0.02 * (sin(a) + rough * noise(2 * i));
+  }
   if (def) sph_sim_set_integrator(sim, def);
   return sim;
 }
@@ -76,7 +82,7 @@ static void gradient_is_that_of_the_energy(void **state)
                                    HEAT | BODIES, GAS | TOTAL | BODIES};
   (void)state;
   for (size_t k = 0; k < sizeof scene / sizeof *scene; k++) {
-    sph_sim *sim = make(scene[k], NULL);
+    sph_sim *sim = make(scene[k] | ROUGH, NULL);
     N_Vector y = sph_sim_vector(sim);
     if (!y) fail_msg("%s", sph_sim_error(sim));
     N_Vector slope = N_VClone(y), change = N_VClone(y), moved = N_VClone(y);
@@ -128,6 +134,7 @@ static double drift(unsigned what, const char *method, const char *relax)
                                        .relax = relax,
                                        .dt_fixed = 1.5 / ACROSS / (what & GAS ? 1.1 : 20)});
   sph_balance first, last;
+  sph_sim_evaluate(sim);
   sph_sim_balance(sim, &first);
   double most = 0;
   for (int step = 0; step < STEPS; step++) {
@@ -137,23 +144,23 @@ static double drift(unsigned what, const char *method, const char *relax)
     most = fmax(most, fabs(last.total - first.total));
   }
   sph_sim_free(sim);
-  return most / first.kinetic;
+  return most / (first.kinetic + fabs(first.internal) + fabs(first.potential));
 }
 
 /* All heat is counted: u takes what viscosity takes from the motion. */
 static void energy_is_kept(void **state)
 {
-  static const unsigned scene[] = {GAS,    GAS | ARTIFICIAL | LAMINAR, GAS | BODIES, 0,
-                                   BODIES, HEAT | ARTIFICIAL | LAMINAR};
+  static const unsigned scene[] = {GAS, GAS | ARTIFICIAL | LAMINAR, 0, BODIES,
+                                   HEAT | ARTIFICIAL | LAMINAR};
   static const char *const method[] = {"erk:bogacki-shampine-4-2-3", "erk:zonneveld-5-3-4"};
   (void)state;
   if (!have_it()) return;
   for (size_t k = 0; k < 2 * sizeof scene / sizeof *scene; k++) {
     double free = drift(scene[k / 2], method[k % 2], NULL);
     double relaxed = drift(scene[k / 2], method[k % 2], "energy");
-    print_message("# scene %zu, %s: %.1e of the kinetic energy, relaxed %.1e\n", k / 2,
-                  method[k % 2], free, relaxed);
-    if (!(relaxed < 1e-11 && free > 30 * relaxed)) fail_msg("scene %zu: %.1e", k / 2, relaxed);
+    print_message("# scene %zu, %s: %.1e of the energy, relaxed %.1e\n", k / 2, method[k % 2], free,
+                  relaxed);
+    if (!(relaxed < 1e-12 && free > 30 * relaxed)) fail_msg("scene %zu: %.1e", k / 2, relaxed);
   }
 }
 
@@ -209,16 +216,16 @@ static void symplectic_schemes_keep_the_energy(void **state)
   int tried = 0;
   for (int k = 0; sph_integrator_info_get(k, &info); k++) {
     if (!(info.wants & SPH_WANTS_SEPARABLE) || info.stages > 8) continue;
-    sph_sim *sim =
-        make(SUMMED | BODIES, &(sph_integrator_def){.method = info.name, .dt_fixed = 2e-3});
+    sph_sim *sim = make(SUMMED, &(sph_integrator_def){.method = info.name, .dt_fixed = 2e-3});
     double worst[2] = {0, 0};
     sph_balance first, now;
+    sph_sim_evaluate(sim);
     sph_sim_balance(sim, &first);
     for (int step = 0; step < 400; step++) {
       if (sph_sim_step(sim)) fail_msg("%s: %s", info.name, sph_sim_error(sim));
       sph_sim_balance(sim, &now);
       double *w = &worst[step / 200];
-      *w = fmax(*w, fabs(now.total - first.total) / first.kinetic);
+      *w = fmax(*w, fabs(now.total - first.total) / (first.kinetic + first.internal));
     }
     print_message("# %s: energy within %.1e, then %.1e\n", info.name, worst[0], worst[1]);
     if (!(worst[1] < 3 * worst[0] + 1e-9 && worst[1] < (info.order < 2   ? 0.1

@@ -211,6 +211,41 @@ static void reset_is_a_new_start(void **state)
   }
 }
 
+static double dense_error(const char *name, int n)
+{
+  stiff s;
+  double most = 0;
+  make(&s, 1e4);
+  ode_start(&s.o, &(sph_integrator_def){.method = name, .dt_fixed = 2.0 / n});
+  N_Vector at = N_VClone(s.o.y);
+  while (sph_integrator_time(s.o.it) < 2) {
+    assert_int_equal(sph_integrator_step(s.o.it, 2), SPH_OK);
+    double t0 = sph_integrator_previous(s.o.it), t1 = sph_integrator_time(s.o.it);
+    for (int k = 0; k <= 4; k++) {
+      double t = t0 + k * (t1 - t0) / 4;
+      assert_int_equal(sph_integrator_interpolate(s.o.it, t, at), SPH_OK);
+      most = fmax(most, ode_error(&s.o, t, at));
+    }
+  }
+  N_VDestroy(at);
+  ode_end(&s.o);
+  return most;
+}
+
+/* Errors inside a step are those at its ends: 1.3 times these at most. */
+static void dense_output_is_as_good_as_the_steps(void **state)
+{
+  (void)state;
+  if (!have_rows()) return;
+  for (int k = 0; k < 2; k++) {
+    double coarse = dense_error(method[k], 40), fine = dense_error(method[k], 80);
+    double ends = error_of(method[k], 10, 1e4);
+    print_message("# %s: dense output %.1e, at the ends %.1e, order %.2f\n", method[k], fine, ends,
+                  log2(coarse / fine));
+    assert_true(fine < 1.3 * ends && log2(coarse / fine) > 1.8);
+  }
+}
+
 static void stop_times_and_dense_output(void **state)
 {
   (void)state;
@@ -258,6 +293,7 @@ int main(void)
       cmocka_unit_test(errors_are_held),
       cmocka_unit_test(failures_are_repeated_and_told),
       cmocka_unit_test(reset_is_a_new_start),
+      cmocka_unit_test(dense_output_is_as_good_as_the_steps),
       cmocka_unit_test(stop_times_and_dense_output),
       cmocka_unit_test(no_bound_is_refused),
   };
