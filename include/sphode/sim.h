@@ -112,7 +112,9 @@ typedef struct sph_sim_stats {
   double pairs;   /* directed pairs inside the support, summed over right-hand sides (estimated from
                      each list) */
   double seconds; /* wall time inside sph_sim_run and sph_sim_step */
-  double rhs_seconds; /* of these, inside the right-hand side */
+  double rhs_seconds;   /* of these, inside the right-hand side, and inside implicit stages, */
+  double solve_seconds; /* which evaluate it, too */
+  long matrices;        /* filled for them */
   long list_builds;
   long near;    /* particles nearer than 0.1 dx to another, at the last list build */
   double bytes; /* memory held */

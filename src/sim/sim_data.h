@@ -143,7 +143,7 @@ struct sph_sim {
   long near;        /* particles nearer than 0.1 dx to another, at the last list build */
   double pairs_now; /* directed pairs inside the support, at the last list build */
   double pairs, seconds, rhs_seconds, solve_seconds; /* solve: implicit stages, with f in them */
-  long list_builds, revision;
+  long list_builds, revision, matrices;              /* matrices: that implicit stages filled */
 };
 
 /* Any call on a simulation without an error?  NULL: no. */

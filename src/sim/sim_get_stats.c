@@ -1,4 +1,4 @@
-#include "sim_data.h"
+#include "sim_implicit.h"
 
 static double held(const sph_sim *sim)
 {
@@ -12,7 +12,8 @@ static double held(const sph_sim *sim)
     for (int field = 0; field < SPH_FIELDS; field++)
       for (int c = 0; c < 3; c++) doubles += group->own[field][c] ? (double)group->capacity : 0;
   }
-  return 8 * doubles + (sim->neighbors ? sph_neighbors_bytes(sim->neighbors) : 0);
+  return 8 * doubles + sph_sim_implicit_bytes(sim) +
+         (sim->neighbors ? sph_neighbors_bytes(sim->neighbors) : 0);
 }
 
 void sph_sim_get_stats(const sph_sim *sim, sph_sim_stats *stats)
@@ -24,6 +25,8 @@ void sph_sim_get_stats(const sph_sim *sim, sph_sim_stats *stats)
   stats->pairs = sim->pairs;
   stats->seconds = sim->seconds;
   stats->rhs_seconds = sim->rhs_seconds;
+  stats->solve_seconds = sim->solve_seconds;
+  stats->matrices = sim->matrices;
   stats->list_builds = sim->list_builds;
   stats->near = sim->near;
   stats->bytes = held(sim);

@@ -6,6 +6,7 @@
 /* What it takes to solve stages, where there are implicit terms.  0 or a failure (recorded). */
 int sph_sim_implicit_make(sph_sim *sim);
 void sph_sim_implicit_free(sph_sim *sim);
+double sph_sim_implicit_bytes(const sph_sim *sim); /* without its linear solvers */
 
 /* Is there an implicit term of the user's own that changes the energy?  Has every fluid one? */
 int sph_sim_implicit_heats(const sph_sim *sim);

@@ -197,6 +197,15 @@ static void expand(const sph_pattern *pattern, sph_csr *A, int d, long i)
   }
 }
 
+enum { OF_PAIR = 8, OF_PARTICLE = 5 }; /* numbers that entries depend on, at most */
+
+static long from_length(const sph_sim *sim)
+{
+  long n = OF_PAIR * sim->groups * sim->groups;
+  for (int g = 0; g < sim->groups; g++) n += OF_PARTICLE * sim->group[g]->n;
+  return n;
+}
+
 int sph_sim_matrix_shape(sph_sim *sim, const sph_pattern *pattern, sph_matrix *matrix)
 {
   if (matrix->pattern == pattern->number) return SPH_OK;
@@ -210,6 +219,12 @@ int sph_sim_matrix_shape(sph_sim *sim, const sph_pattern *pattern, sph_matrix *m
                              "a matrix beside walls", &sim->error);
   if (status) return status;
   if (n > matrix->room) matrix->room = n;
+  const long from = from_length(sim);
+  if (from > matrix->from_room)
+    status = sph_memory_grow((void **)&matrix->from, 0, (size_t)from, sizeof(double),
+                             "what a matrix is made from", &sim->error);
+  if (status) return status;
+  if (from > matrix->from_room) matrix->from_room = from;
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > ROWS)
   for (long i = 0; i < n; i++) expand(pattern, &matrix->A, d, i);
   matrix->A.n = n * d;
@@ -317,6 +332,45 @@ static void start(const sph_sim *sim, const sph_pattern *pattern, sph_matrix *ma
     for (int b = 0; b < d - 1; b++) A->value[A->start[row] + b] = 0;
 }
 
+/* Takes a number down; is it what stands there? */
+static int note(double **at, double value)
+{
+  int same = **at == value;
+  *(*at)++ = value;
+  return same;
+}
+
+int sph_sim_matrix_same(sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
+                        double gamma, int coupling)
+{
+  const sph_sim *sim = e->sim;
+  const int dim = sim->dim;
+  int same = matrix->from_pattern == pattern->number && matrix->from_coupling == coupling;
+  double *at = matrix->from;
+  for (int g = 0; g < sim->groups; g++)
+    for (int s = 0; s < sim->groups; s++) {
+      if (sim->group[g]->wall) continue;
+      const matrix_constants k = constants_of(e, g, s, gamma, coupling);
+      const double of_pair[OF_PAIR] = {k.scalar,       k.vector,
+                                       k.drag,         k.fluid.laminar,
+                                       k.fluid.drag,   k.fluid.drag_i,
+                                       k.fluid.drag_j, (double)k.fluid.terms};
+      for (int n = 0; n < OF_PAIR; n++) same &= note(&at, of_pair[n]);
+    }
+  for (int g = 0; g < sim->groups; g++) {
+    const double *record = sim->sorted[g].record;
+    for (long s = 0; s < e->view[g].n; s++, record += sim->sorted[g].stride) {
+      for (int d = 0; d < dim; d++) same &= note(&at, record[d]);
+      if (sim->group[g]->wall) continue; /* of constant volume */
+      same &= note(&at, record[slot_V(dim)]);
+      same &= note(&at, record[slot_rho(dim)]);
+    }
+  }
+  matrix->from_pattern = pattern->number;
+  matrix->from_coupling = coupling;
+  return same;
+}
+
 void sph_sim_matrix_fill(sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
                          double gamma, int coupling)
 {
@@ -333,6 +387,7 @@ void sph_sim_matrix_fill(sph_evaluation *e, const sph_pattern *pattern, sph_matr
     fill_walls(e, pattern, matrix, g, gamma, coupling);
   }
   matrix->values++;
+  e->sim->matrices++;
 }
 
 void sph_sim_matrix_add_tiles(sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
@@ -350,6 +405,8 @@ void sph_sim_matrix_add_tiles(sph_evaluation *e, const sph_pattern *pattern, sph
       k.unknown = unknown;
       k.per_volume = per_volume;
       k.gamma = gamma;
+      /* They leave dust alone, but its places in the rows are passed. */
+      if (sim->group[g]->eos.dust || sim->group[s]->eos.dust) k.terms = 0;
       int seen = unknown == TILE_VELOCITY      ? (fluid.terms & SPH_NO_SLIP) != 0
                  : unknown == TILE_TEMPERATURE ? k.isothermal
                                                : 0; /* a wall mirrors scalars */
@@ -386,6 +443,23 @@ int sph_sim_matrix_sums(sph_evaluation *e, int g, int coupling)
   return d;
 }
 
+double sph_sim_matrix_pattern_bytes(const sph_pattern *pattern)
+{
+  double bytes = (double)pattern->room_rows * (sizeof(long) + sizeof(int)) +
+                 (double)pattern->room * sizeof(int);
+  for (int k = 0; pattern->masks && k < pattern->groups * pattern->groups; k++)
+    bytes += (double)pattern->masks[k].room_first * sizeof(long) + (double)pattern->masks[k].room;
+  return bytes;
+}
+
+double sph_sim_matrix_bytes(const sph_matrix *matrix)
+{
+  const int d = matrix->components;
+  return (double)matrix->A.room_rows * (sizeof(long) + 2 * sizeof(double)) +
+         (double)matrix->A.room_entries * (sizeof(int) + sizeof(double)) +
+         sizeof(double) * (double)(matrix->room * d * (d + 1) / 2 + matrix->from_room);
+}
+
 void sph_sim_matrix_pattern_free(sph_pattern *pattern)
 {
   for (int k = 0; pattern->masks && k < pattern->groups * pattern->groups; k++) {
@@ -401,5 +475,6 @@ void sph_sim_matrix_pattern_free(sph_pattern *pattern)
 void sph_sim_matrix_free(sph_matrix *matrix)
 {
   for (int s = 0; s < SPH_MATRIX_WALL_SUMS; s++) sph_memory_free(matrix->wall[s]);
+  sph_memory_free(matrix->from);
   sph_csr_free(&matrix->A);
 }

@@ -44,6 +44,10 @@ typedef struct sph_matrix {
                                          array, or the upper triangle of dim x dim by rows */
   long room;                          /* of wall */
   long pattern, values;               /* of the pattern that A has; rises whenever A is filled */
+  /* What A was filled from, all that it depends on: where that is the same, A is. */
+  double *from;
+  long from_room, from_pattern; /* from_pattern 0: A depends on more, or is not filled */
+  int from_coupling;
 } sph_matrix;
 
 /* Makes the pattern that of the present lists, if it is not; records hold positions, and do so
@@ -51,6 +55,11 @@ typedef struct sph_matrix {
 int sph_sim_matrix_pattern(sph_evaluation *e, sph_pattern *pattern);
 /* Gives a matrix that pattern; then A.floor has room. */
 int sph_sim_matrix_shape(sph_sim *sim, const sph_pattern *pattern, sph_matrix *matrix);
+/* Is it filled already, with the same gamma and coupling, from the same positions, densities,
+ * masses and materials?  Else notes them for the next time; for couplings that depend on nothing
+ * else. */
+int sph_sim_matrix_same(sph_evaluation *e, const sph_pattern *pattern, sph_matrix *matrix,
+                        double gamma, int coupling);
 /* Fills it, given its floor, with gamma times the coupling of the terms of e->part; records are
  * packed.  No-slip or isothermal walls count as if what viscosity or conduction sees of them were
  * 2 x_wall - x_i: that makes 2 gamma sum_w k_iw on the diagonal. */
@@ -65,6 +74,8 @@ void sph_sim_matrix_add_tiles(sph_evaluation *e, const sph_pattern *pattern, sph
  * of its sorted copy, of velocities the upper triangle by rows.  Returns the rows of a block. */
 int sph_sim_matrix_sums(sph_evaluation *e, int g, int coupling);
 
+double sph_sim_matrix_pattern_bytes(const sph_pattern *pattern);
+double sph_sim_matrix_bytes(const sph_matrix *matrix);
 void sph_sim_matrix_pattern_free(sph_pattern *pattern);
 void sph_sim_matrix_free(sph_matrix *matrix);
 

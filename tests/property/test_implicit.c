@@ -273,6 +273,40 @@ static void pairs_come_back(void **state)
   sph_sim_free(sim);
 }
 
+/* A matrix is filled anew where anything that it depends on is, and only there. */
+static void matrices_are_kept(void **state)
+{
+  (void)state;
+  scene_def def = {
+      .dim = 2, .n = 14, .fluids = 2, .laminar = 1, .walls = 2, .no_slip = 1, .seed = 7};
+  scene s;
+  scene_make(&s, &def);
+  choose(&s.o, CONDUCTION, 0);
+  s.o.energy = ORACLE_TEMPERATURE;
+  sph_sim *sim = scene_sim(&s, (scene_options){0});
+  make_implicit(sim, CONDUCTION);
+  N_Vector y = sph_sim_vector(sim), known = N_VClone(y), z = N_VClone(y);
+  N_VScale(1, y, known);
+  sph_view view = sph_group_data_view(sim->group[0], sph_nvector_data(known), NULL);
+  sph_stage stage = {.gamma = 1, .tolerance = 1e-12, .known = known, .z = z};
+  static const long filled[] = {1, 1, 2, 3, 3, 4, 5, 6};
+  for (int k = 0; k < 8; k++) {
+    if (k == 2) stage.gamma = 0.5;
+    if (k == 3) view.x[0][5] += 1e-9;
+    if (k == 4) view.v[0][5] += 1, view.energy[7] += 3;
+    if (k == 5) view.rho[5] *= 1 + 1e-9;
+    if (k == 6) sph_group_set_conductivity(sim->group[1], 41);
+    if (k == 7) sph_sim_changed(sim); /* new lists */
+    N_VScale(1, known, z);
+    assert_int_equal(sph_sim_implicit_solve(&stage, sim), 0);
+    if (sim->matrices != filled[k]) fail_msg("%d: %ld matrices", k, sim->matrices);
+    check_stage(sim, &stage, 1e-9, k);
+  }
+  N_VDestroy(known), N_VDestroy(z);
+  sph_sim_free(sim);
+  scene_free(&s);
+}
+
 /* ---- terms of the user's own ---- */
 
 /* Dye that diffuses, ds_i = 2 D sum V_j (s_i - s_j) F, and reacts, ds = - k s^3. */
@@ -531,6 +565,7 @@ int main(void)
       cmocka_unit_test(who_is_alone_stays_out),
       cmocka_unit_test(dust_loosens_nothing),
       cmocka_unit_test(pairs_come_back),
+      cmocka_unit_test(matrices_are_kept),
       cmocka_unit_test(registered_scalar),
       cmocka_unit_test(registered_wind),
       cmocka_unit_test(scalar_decays),

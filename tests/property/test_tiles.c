@@ -221,6 +221,40 @@ static void any_threads(void **state)
   scene_free(&s);
 }
 
+static void spring(const sph_term *term, const sph_tile *t)
+{
+  (void)term;
+  for (long k = 0; k < t->n; k++) t->push[k] -= 1e3 * t->V[k] / t->i[0][k] * t->F[k];
+}
+
+/* Dust among a fluid, which drag ties to it: pair terms act within the fluid alone. */
+static void dust_is_left_alone(void **state)
+{
+  (void)state;
+  sph_sim *sim =
+      sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 0.1, .periodic = {1, 1}, .length = {1, 1}});
+  for (int g = 0; g < 2; g++) {
+    sph_group *group =
+        sph_group_box(sim, g ? "dust" : "water", (double[]){0, 0}, (double[]){1, 1}, 1000);
+    sph_group_jitter(group, 0.3, (unsigned long)(g + 1));
+    sph_group_set_eos(group, g ? sph_eos_dust() : sph_eos_tait(1000, 10, 7));
+  }
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, sph_term_drag(1));
+  sph_sim_add_term(
+      sim, (sph_term){.name = "spring", .pair = spring, .reads = "density", .adds = "push"});
+  assert_int_equal(sph_sim_evaluate(sim), SPH_OK);
+  for (int g = 0; g < 2; g++) {
+    const sph_group *group = sph_sim_group_get(sim, g);
+    const double *a = sph_group_rate(group, "velocity", 0);
+    double sum = 0, size = 0;
+    for (long i = 0; i < sph_group_count(group); i++) sum += a[i], size += fabs(a[i]);
+    assert_true(g ? size == 0 : size > 0);
+    if (!(fabs(sum) <= 1e-13 * size)) fail_msg("%d: %g of %g", g, sum, size);
+  }
+  sph_sim_free(sim);
+}
+
 /* ---- scalars ---- */
 
 /* ds/dt = 2 D sum V (s_i - s_j) F: diffusion (Brookshaw 1985); ctx: D. */
@@ -325,8 +359,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(equal_to_fused), cmocka_unit_test(every_width),
-      cmocka_unit_test(any_threads),    cmocka_unit_test(scalar_rates),
-      cmocka_unit_test(scalar_decays),
+      cmocka_unit_test(any_threads),    cmocka_unit_test(dust_is_left_alone),
+      cmocka_unit_test(scalar_rates),   cmocka_unit_test(scalar_decays),
   };
   return cmocka_run_group_tests_name("tiles", tests, NULL, NULL);
 }
