@@ -74,7 +74,7 @@ static int maker_add_set(maker *m, const sph_sets *others, long k)
 static void maker_next(maker *m)
 {
   long begin = m->sets.first[m->made], end = m->sets.first[m->made + 1];
-  qsort(m->sets.item + begin, (size_t)(end - begin), sizeof(int), by_number);
+  if (end > begin) qsort(m->sets.item + begin, (size_t)(end - begin), sizeof(int), by_number);
   if (++m->made < m->sets.n) m->sets.first[m->made + 1] = end;
 }
 
