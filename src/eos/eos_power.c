@@ -5,7 +5,8 @@
  *   u_el  = int p/rho^2 drho from rho0
  *         = (c0^2/gamma) { [(1 + e)^(gamma-1) - 1]/(gamma - 1) - e/(1 + e) } + (p_b/rho0) e/(1 + e)
  *
- * Weakly compressible: e is 1e-2 and smaller, so powers go through log1p and expm1 of e. */
+ * Weakly compressible: e is 1e-2 and smaller, so powers go through log1p and expm1 of e.  Relaxation
+ * sums the energy several times a step: water, gamma = 7, has a polynomial. */
 #include <math.h>
 
 #include "eos_table.h"
@@ -17,11 +18,24 @@ double sph_eos_power_density(const sph_eos *eos, double gamma, double p)
   return eos->rho0 * (gamma == 1 ? 1 + x : exp(log1p(x) / gamma));
 }
 
+/* [(1 + e)^6 - 1]/6 - e/(1 + e) as one fraction: without cancellation, and without powers. */
+static double bracket_7(double e)
+{
+  return e * e * (21 + e * (35 + e * (35 + e * (21 + e * (7 + e))))) / (6 * (1 + e));
+}
+
+static double bracket(double e, double gamma)
+{
+  double log_x = log1p(e);
+  double power = gamma == 1 ? log_x : expm1((gamma - 1) * log_x) / (gamma - 1);
+  return power - e / (1 + e);
+}
+
 static double uncut_energy(const sph_eos *eos, double gamma, double rho)
 {
-  double e = (rho - eos->rho0) / eos->rho0, work = e / (1 + e), log_x = log1p(e);
-  double power = gamma == 1 ? log_x : expm1((gamma - 1) * log_x) / (gamma - 1);
-  return eos->c0 * eos->c0 / gamma * (power - work) + eos->p_background / eos->rho0 * work;
+  double e = (rho - eos->rho0) / eos->rho0;
+  return eos->c0 * eos->c0 / gamma * (gamma == 7 ? bracket_7(e) : bracket(e, gamma)) +
+         eos->p_background / eos->rho0 * (e / (1 + e));
 }
 
 /* On the cut the pressure is p_min from rho_cut on. */

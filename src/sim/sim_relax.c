@@ -33,9 +33,9 @@ static void add(sum *s, double x)
   s->value = t;
 }
 
-/* Of a particle: [0] its energy, [1] the magnitudes of what that consists of. */
-static void add_particle(const sph_sim *sim, const sph_group *group, const sph_view *view, long i,
-                         sum to[2])
+/* The energy of particle i; *parts grows by the magnitudes of what that consists of. */
+static double energy_of(const sph_sim *sim, const sph_group *group, const sph_view *view, long i,
+                        double *parts)
 {
   const int elastic = !group->eos.thermal && group->eos.elastic_energy;
   double x[3] = {0}, v2 = 0, u = view->energy ? view->energy[i] : 0;
@@ -46,39 +46,42 @@ static void add_particle(const sph_sim *sim, const sph_group *group, const sph_v
   if (elastic) u += group->eos.elastic_energy(&group->eos, view->rho[i]);
   const double m = view->m[i], kinetic = total(group) ? 0 : m * v2 / 2;
   const double potential = m * sph_term_set_potential(&sim->terms, x);
-  add(&to[0], kinetic);
-  add(&to[0], m * u);
-  add(&to[0], potential);
-  add(&to[1], kinetic + fabs(m * u) + fabs(potential));
+  *parts += kinetic + fabs(m * u) + fabs(potential);
+  return kinetic + m * u + potential;
 }
 
-/* Chunks of particles, added in order. */
-static void add_group(const sph_sim *sim, const sph_group *group, const sph_view *view, sum to[2])
+/* Chunks of particles, added in order: to the energy, and to the magnitudes. */
+static void add_group(const sph_sim *sim, const sph_group *group, const sph_view *view, sum *energy,
+                      double *parts)
 {
   const long chunks = (view->n + CHUNK - 1) / CHUNK;
   double *part = sim->sorted[group->index].sum[0]; /* free between evaluations */
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (view->n > PARALLEL_MIN)
   for (long k = 0; k < chunks; k++) {
     const long end = (k + 1) * CHUNK < view->n ? (k + 1) * CHUNK : view->n;
-    sum own[2] = {{0, 0}, {0, 0}};
-    for (long i = k * CHUNK; i < end; i++) add_particle(sim, group, view, i, own);
-    part[2 * k] = own[0].value;
-    part[2 * k + 1] = own[1].value;
+    sum own = {0, 0};
+    double magnitudes = 0;
+    for (long i = k * CHUNK; i < end; i++) add(&own, energy_of(sim, group, view, i, &magnitudes));
+    part[2 * k] = own.value;
+    part[2 * k + 1] = magnitudes;
   }
-  for (long k = 0; k < 2 * chunks; k++) add(&to[k % 2], part[k]);
+  for (long k = 0; k < chunks; k++) {
+    add(energy, part[2 * k]);
+    *parts += part[2 * k + 1];
+  }
 }
 
 int sph_sim_relax_energy(N_Vector y, double *energy, double *parts, void *ctx)
 {
   const sph_sim *sim = ctx;
-  sum all[2] = {{0, 0}, {0, 0}};
+  sum all = {0, 0};
+  *parts = 0;
   for (int g = 0; g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
     const sph_view view = sph_group_data_view(group, sph_nvector_data(y), NULL);
-    if (!group->wall) add_group(sim, group, &view, all);
+    if (!group->wall) add_group(sim, group, &view, &all, parts);
   }
-  *energy = all[0].value;
-  *parts = all[1].value;
+  *energy = all.value;
   return *parts < INFINITY ? SPH_OK : SPH_RETRY;
 }
 
