@@ -5,8 +5,8 @@
  *   u_el  = int p/rho^2 drho from rho0
  *         = (c0^2/gamma) { [(1 + e)^(gamma-1) - 1]/(gamma - 1) - e/(1 + e) } + (p_b/rho0) e/(1 + e)
  *
- * Weakly compressible: e is 1e-2 and smaller, so powers go through log1p and expm1 of e.  Relaxation
- * sums the energy several times a step: water, gamma = 7, has a polynomial. */
+ * Weakly compressible: e is 1e-2 and smaller, so powers go through log1p and expm1 of e.
+ * Relaxation sums the energy several times a step: water, gamma = 7, has a polynomial. */
 #include <math.h>
 
 #include "eos_table.h"

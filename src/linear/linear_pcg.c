@@ -199,7 +199,7 @@ int sph_linear_pcg_solve(sph_pcg *s, sph_linear *solver, const sph_linear_task *
 {
   int status = SPH_OK;
   for (int first = 0; !status && first < task->columns; first += MOST) {
-    estimate error;
+    estimate error = {.allowed = 0};
     double size, rho[MOST] = {0};
     load(s, task, first);
     estimate_start(&error, s, task, first, &size);

@@ -66,7 +66,7 @@ static int maker_add_set(maker *m, const sph_sets *others, long k)
 {
   int status = SPH_OK;
   if (!others) return maker_add(m, (int)k);
-  for (long q = others->first[k]; !status && q < others->first[k + 1]; q++)
+  for (long q = others->first[k]; !status && others->item && q < others->first[k + 1]; q++)
     status = maker_add(m, others->item[q]);
   return status;
 }
@@ -74,7 +74,7 @@ static int maker_add_set(maker *m, const sph_sets *others, long k)
 static void maker_next(maker *m)
 {
   long begin = m->sets.first[m->made], end = m->sets.first[m->made + 1];
-  if (end > begin) qsort(m->sets.item + begin, (size_t)(end - begin), sizeof(int), by_number);
+  if (m->sets.item) qsort(m->sets.item + begin, (size_t)(end - begin), sizeof(int), by_number);
   if (++m->made < m->sets.n) m->sets.first[m->made + 1] = end;
 }
 
@@ -152,7 +152,8 @@ static int add_near(const sph_sim *sim, maker *m, int g, long n, int s, long bas
 /* For each fluid (or wall) particle all fluids (or walls) within the support. */
 static int neighbours(const sph_sim *sim, int of_walls, int walls, sph_sets *to, sph_error *error)
 {
-  long base[SPH_SETS_MAX], numbers = base_of(sim, walls, base), unused[SPH_SETS_MAX], most = 0;
+  long base[SPH_SETS_MAX] = {0}, unused[SPH_SETS_MAX], most = 0;
+  const long numbers = base_of(sim, walls, base);
   maker m = {.error = error};
   int status = maker_start(&m, base_of(sim, of_walls, unused), numbers);
   for (int g = 0; g < sim->groups; g++) most = sim->group[g]->n > most ? sim->group[g]->n : most;

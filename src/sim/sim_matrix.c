@@ -454,10 +454,10 @@ double sph_sim_matrix_pattern_bytes(const sph_pattern *pattern)
 
 double sph_sim_matrix_bytes(const sph_matrix *matrix)
 {
-  const int d = matrix->components;
+  const long d = matrix->components, block = d * (d + 1) / 2;
   return (double)matrix->A.room_rows * (sizeof(long) + 2 * sizeof(double)) +
          (double)matrix->A.room_entries * (sizeof(int) + sizeof(double)) +
-         sizeof(double) * (double)(matrix->room * d * (d + 1) / 2 + matrix->from_room);
+         sizeof(double) * (double)(matrix->room * block + matrix->from_room);
 }
 
 void sph_sim_matrix_pattern_free(sph_pattern *pattern)

@@ -320,7 +320,7 @@ static const struct {
 
 unsigned sph_term_set_bits(const char *name)
 {
-  for (size_t k = 0; k < sizeof changeable / sizeof *changeable; k++)
+  for (size_t k = 0; name && k < sizeof changeable / sizeof *changeable; k++)
     if (!strcmp(name, changeable[k].name)) return changeable[k].bits;
   return 0;
 }
