@@ -283,16 +283,19 @@ static void range(const work *w, sph_plot_def *def, double (*of)(const work_run 
 static int draw(const work *w, const char *column, double (*of)(const work_run *r),
                 const char *label, const char *name)
 {
-  char csv[4096], png[4096], title[300], y_label[120];
+  char csv[4096], png[4096], x_label[120], y_label[120];
   sph_plot_curve curve[WORK_METHODS];
   int n = 0;
   snprintf(csv, sizeof csv, "%s/work-precision.csv", w->directory);
   snprintf(png, sizeof png, "%s/%s.png", w->directory, name);
-  snprintf(title, sizeof title, "%s: t = %.4g s, reference %s, its error %.0e",
-           sph_case_title(w->reference.c), w->end, w->reference.label, w->floor_of[w->shown]);
+  snprintf(x_label, sizeof x_label, "%s, to t = %.4g s", label, w->end);
   snprintf(y_label, sizeof y_label, "error of %s / %.4g %s", w->fields.name[w->shown],
            w->fields.scale[w->shown], w->fields.unit[w->shown]);
-  sph_plot_def def = {.title = title, .x_label = label, .y_label = y_label, .log_x = 1, .log_y = 1};
+  sph_plot_def def = {.title = sph_case_title(w->reference.c),
+                      .x_label = x_label,
+                      .y_label = y_label,
+                      .log_x = 1,
+                      .log_y = 1};
   range(w, &def, of);
   for (int m = 0; m < w->methods; m++) {
     int good = 0;
