@@ -21,7 +21,8 @@ static double scale(const sph_sim *sim)
 fluid_constants sph_sim_drag_constants(const sph_sim *sim, int target, int source)
 {
   const double unit = scale(sim), rate = unit * sim->terms.drag_rate;
-  return (fluid_constants){.inverse_h = 1 / sim->h,
+  return (fluid_constants){.kernel = sim->kernel_number,
+                           .inverse_h = 1 / sim->h,
                            .drag = unit * sim->terms.drag_K,
                            .drag_i = sim->group[target]->eos.dust ? rate : 0,
                            .drag_j = sim->group[source]->eos.dust ? rate : 0};

@@ -67,6 +67,7 @@ fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part
   const sph_term_set *set = &sim->terms;
   const double h = sim->h;
   fluid_constants k = {.terms = terms_of(part, target, source),
+                       .kernel = sim->kernel_number,
                        .inverse_h = 1 / h,
                        .eta2 = 0.01 * h * h,
                        .viscosity_1 = -set->alpha * h,

@@ -307,7 +307,7 @@ static void fill_walls(const sph_evaluation *e, const sph_pattern *pattern, sph_
                        int target, double gamma, int coupling)
 {
   sph_sim *sim = e->sim;
-  const sph_matrix_loops *loops = sph_matrix_loop(sim->isa, sim->kernel_number, sim->dim);
+  const sph_matrix_loops *loops = sph_matrix_loop(sim->isa, sim->dim);
   const int d = matrix->components;
   sph_sim_pairs_clear(sim, target, d * (d + 1) / 2);
   for (int w = 0; w < sim->groups; w++) {
@@ -375,7 +375,7 @@ void sph_sim_matrix_fill(sph_evaluation *e, const sph_pattern *pattern, sph_matr
                          double gamma, int coupling)
 {
   const sph_sim *sim = e->sim;
-  const sph_matrix_loops *loops = sph_matrix_loop(sim->isa, sim->kernel_number, sim->dim);
+  const sph_matrix_loops *loops = sph_matrix_loop(sim->isa, sim->dim);
   start(sim, pattern, matrix);
   for (int g = 0; g < sim->groups; g++) {
     if (sim->group[g]->wall) continue;
@@ -394,7 +394,7 @@ void sph_sim_matrix_add_tiles(sph_evaluation *e, const sph_pattern *pattern, sph
                               double gamma, int unknown, int per_volume)
 {
   const sph_sim *sim = e->sim;
-  sph_matrix_function *loop = sph_tile_loop_matrix(sim->isa, sim->kernel_number, sim->dim);
+  sph_matrix_function *loop = sph_tile_loop_matrix(sim->isa, sim->dim);
   memset(pattern->filled, 0, (size_t)pattern->rows * sizeof *pattern->filled);
   for (int g = 0; g < sim->groups; g++)
     for (int s = 0; s < sim->groups && !sim->group[g]->wall; s++) {
@@ -429,7 +429,7 @@ static void leave_out_self(const sph_evaluation *e, int g, int d, double k)
 int sph_sim_matrix_sums(sph_evaluation *e, int g, int coupling)
 {
   sph_sim *sim = e->sim;
-  const sph_matrix_loops *loops = sph_matrix_loop(sim->isa, sim->kernel_number, sim->dim);
+  const sph_matrix_loops *loops = sph_matrix_loop(sim->isa, sim->dim);
   const int vector = coupling == SPH_COUPLING_VISCOSITY, d = vector ? sim->dim : 1;
   const double f0 = -sph_kernel_f(sim->kernel, sim->dim, 0, sim->h) / sim->F_scale;
   sph_sim_pairs_clear(sim, g, d * (d + 1) / 2);

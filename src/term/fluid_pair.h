@@ -76,6 +76,7 @@ enum { SPH_FOURTAKAS_TERMS = 8 }; /* of the series of its hydrostatic density */
  * (tangent_loops.h) take these numbers with their derivatives. */
 typedef struct fluid_constants {
   unsigned terms;
+  int kernel; /* for loops that are not compiled for one */
   vec_scalar inverse_h;
   vec_scalar eta2;                     /* 0.01 h^2 [m^2] */
   vec_scalar viscosity_1, viscosity_2; /* -alpha h [m], 2 beta h^2 [m^2] */

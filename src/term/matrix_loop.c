@@ -9,7 +9,4 @@ static const sph_matrix_table *const tables[SPH_ISA_COUNT] = {
 #undef ROW
 };
 
-const sph_matrix_loops *sph_matrix_loop(int isa, int kernel, int dim)
-{
-  return &tables[isa]->loops[kernel][dim - 1];
-}
+const sph_matrix_loops *sph_matrix_loop(int isa, int dim) { return &tables[isa]->loops[dim - 1]; }

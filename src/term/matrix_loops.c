@@ -1,5 +1,11 @@
-/* Instances of the loops that fill matrices, once per instruction set. */
+/* Instances of the loops that fill matrices, once per instruction set, for any kernel: what it
+ * costs to tell them apart is little beside what it costs to scatter the entries. */
 #include "matrix_loops.h"
+
+BODY int kernel_of(const void *constants)
+{
+  return ((const matrix_constants *)constants)->fluid.kernel;
+}
 
 /* The targets of a block whose bit is set. */
 #define EACH_LANE(l, bits)                                                               \
@@ -147,18 +153,16 @@ BODY void vector_blocks(int dim, int kernel, const sph_matrix_task *k, long begi
 
 /* ---- walls: sums alone ---- */
 
-BODY void wall_scalar(int dim, int kernel, const void *constants, const vec *i, const vec *j,
-                      vec *sum)
+BODY void wall_scalar(int dim, const void *constants, const vec *i, const vec *j, vec *sum)
 {
-  sum[0] += matrix_scalar(dim, kernel, constants, i, j);
+  sum[0] += matrix_scalar(dim, kernel_of(constants), constants, i, j);
 }
 
-BODY void wall_vector(int dim, int kernel, const void *constants, const vec *i, const vec *j,
-                      vec *sum)
+BODY void wall_vector(int dim, const void *constants, const vec *i, const vec *j, vec *sum)
 {
   matrix_pair p;
   vec along_v, along_r;
-  matrix_vector(dim, kernel, constants, i, j, &p, &along_v, &along_r);
+  matrix_vector(dim, kernel_of(constants), constants, i, j, &p, &along_v, &along_r);
   int s = 0;
   for (int a = 0; a < dim; a++)
     for (int b = a; b < dim; b++, s++) {
@@ -167,41 +171,29 @@ BODY void wall_vector(int dim, int kernel, const void *constants, const vec *i, 
     }
 }
 
-#define MATRIX(kernel, dim)                                                                     \
-  static void scalar_##kernel##_##dim(const sph_matrix_task *k, long b, long e)                 \
-  {                                                                                             \
-    scalar_blocks(dim, kernel, k, b, e);                                                        \
-  }                                                                                             \
-  static void vector_##kernel##_##dim(const sph_matrix_task *k, long b, long e)                 \
-  {                                                                                             \
-    vector_blocks(dim, kernel, k, b, e);                                                        \
-  }                                                                                             \
-  BODY void wall_scalar_body_##kernel##_##dim(int d, const void *k, const vec *i, const vec *j, \
-                                              vec *sum)                                         \
-  {                                                                                             \
-    wall_scalar(d, kernel, k, i, j, sum);                                                       \
-  }                                                                                             \
-  static void wall_scalar_##kernel##_##dim(const sph_pair_task *t, long b, long e)              \
-  {                                                                                             \
-    sph_pair_loop(wall_scalar_body_##kernel##_##dim, t, b, e, dim, 2 * dim + 4, 1);             \
-  }                                                                                             \
-  BODY void wall_vector_body_##kernel##_##dim(int d, const void *k, const vec *i, const vec *j, \
-                                              vec *sum)                                         \
-  {                                                                                             \
-    wall_vector(d, kernel, k, i, j, sum);                                                       \
-  }                                                                                             \
-  static void wall_vector_##kernel##_##dim(const sph_pair_task *t, long b, long e)              \
-  {                                                                                             \
-    sph_pair_loop(wall_vector_body_##kernel##_##dim, t, b, e, dim, 3 * dim + 4,                 \
-                  dim * (dim + 1) / 2);                                                         \
+#define MATRIX(dim)                                                             \
+  static void scalar_##dim(const sph_matrix_task *k, long b, long e)            \
+  {                                                                             \
+    scalar_blocks(dim, kernel_of(k->pairs->constants), k, b, e);                \
+  }                                                                             \
+  static void vector_##dim(const sph_matrix_task *k, long b, long e)            \
+  {                                                                             \
+    vector_blocks(dim, kernel_of(k->pairs->constants), k, b, e);                \
+  }                                                                             \
+  static void wall_scalar_##dim(const sph_pair_task *t, long b, long e)         \
+  {                                                                             \
+    sph_pair_loop(wall_scalar, t, b, e, dim, 2 * dim + 4, 1);                   \
+  }                                                                             \
+  static void wall_vector_##dim(const sph_pair_task *t, long b, long e)         \
+  {                                                                             \
+    sph_pair_loop(wall_vector, t, b, e, dim, 3 * dim + 4, dim * (dim + 1) / 2); \
   }
-#define KERNEL(kernel) MATRIX(kernel, 1) MATRIX(kernel, 2) MATRIX(kernel, 3)
-SPH_KERNEL_LIST(KERNEL)
+MATRIX(1)
+MATRIX(2)
+MATRIX(3)
 
-#define LOOPS(kernel, dim)                                                          \
-  {                                                                                 \
-    scalar_##kernel##_##dim, vector_##kernel##_##dim, wall_scalar_##kernel##_##dim, \
-        wall_vector_##kernel##_##dim                                                \
+#define LOOPS(dim)                                                   \
+  {                                                                  \
+    scalar_##dim, vector_##dim, wall_scalar_##dim, wall_vector_##dim \
   }
-#define ROW(kernel) [kernel] = {LOOPS(kernel, 1), LOOPS(kernel, 2), LOOPS(kernel, 3)},
-const sph_matrix_table SPH_ISA_NAME(sph_matrix_loops) = {{SPH_KERNEL_LIST(ROW)}};
+const sph_matrix_table SPH_ISA_NAME(sph_matrix_loops) = {{LOOPS(1), LOOPS(2), LOOPS(3)}};

@@ -33,9 +33,10 @@ typedef struct sph_matrix_loops {
 } sph_matrix_loops;
 
 typedef struct sph_matrix_table {
-  sph_matrix_loops loops[SPH_KERNELS][3]; /* [kernel][dim - 1] */
+  sph_matrix_loops loops[3]; /* [dim - 1] */
 } sph_matrix_table;
 
-const sph_matrix_loops *sph_matrix_loop(int isa, int kernel, int dim);
+/* Their constants name the kernel. */
+const sph_matrix_loops *sph_matrix_loop(int isa, int dim);
 
 #endif

@@ -14,7 +14,4 @@ sph_pair_function *sph_tile_loop(int isa, int kernel, int dim)
   return tables[isa]->loop[kernel][dim - 1];
 }
 
-sph_matrix_function *sph_tile_loop_matrix(int isa, int kernel, int dim)
-{
-  return tables[isa]->matrix[kernel][dim - 1];
-}
+sph_matrix_function *sph_tile_loop_matrix(int isa, int dim) { return tables[isa]->matrix[dim - 1]; }

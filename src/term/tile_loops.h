@@ -7,11 +7,11 @@
 
 typedef struct sph_tile_table {
   sph_pair_function *loop[SPH_KERNELS][3]; /* [kernel][dim - 1] */
-  sph_matrix_function *matrix[SPH_KERNELS][3];
+  sph_matrix_function *matrix[3];
 } sph_tile_table;
 
 sph_pair_function *sph_tile_loop(int isa, int kernel, int dim);
 /* Adds what they give to a matrix (tile_matrix.h). */
-sph_matrix_function *sph_tile_loop_matrix(int isa, int kernel, int dim);
+sph_matrix_function *sph_tile_loop_matrix(int isa, int dim);
 
 #endif

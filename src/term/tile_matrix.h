@@ -83,16 +83,24 @@ BODY void tile_matrix_close(int dim, tile_matrix *it, long b)
   }
 }
 
+BODY void tile_matrix_row(int dim, int kernel, tile_matrix *it, const vec *slot_i,
+                          const vec *slot_j, const double *record, int n)
+{
+  const tile_constants *k = it->k;
+  const unsigned terms = k->fluid.terms;
+  const particle i = fluid_particle(dim, terms, slot_i), j = fluid_particle(dim, terms, slot_j);
+  const pair p = fluid_pair_common(dim, kernel, terms, &k->fluid, &i, &j);
+  tile_row(dim, terms, k, &p, &i, &j, record, &it->rows, n);
+}
+
 /* All pairs of one block. */
 BODY void tile_matrix_block(int dim, int kernel, tile_matrix *it, long b)
 {
   const sph_pair_task *t = it->task->pairs;
-  const unsigned terms = it->k->fluid.terms;
   const int slots = slot_scalar(dim);
   const double *record = t->target + b * SPH_LANES * t->target_stride;
   const unsigned char *mask = it->task->mask ? it->task->mask + it->task->first[b] : NULL;
   vec home[SPH_PAIR_SLOTS], i[SPH_PAIR_SLOTS], j[SPH_PAIR_SLOTS];
-  vec nothing[SPH_FLUID_SUMS_ALL] = {{0}};
   int n = 0;
   for (int s = 0; s < slots; s++) home[s] = v_gather(record + s, t->target_stride);
   tile_targets(dim, it->k, record, t->target_stride, &it->rows);
@@ -106,7 +114,7 @@ BODY void tile_matrix_block(int dim, int kernel, tile_matrix *it, long b)
       if (!bits) continue;
       for (int s = 0; s < slots; s++) j[s] = v_set(source[s]);
       it->bits[n] = bits;
-      tile_fill(dim, kernel, terms, it->k, i, j, source, nothing, &it->rows, n++);
+      tile_matrix_row(dim, kernel, it, i, j, source, n++);
       if (n < SPH_TILE_ROWS) continue;
       tile_matrix_take(dim, it, n);
       n = 0;

@@ -115,7 +115,33 @@ BODY void tile_source(int dim, unsigned terms, const tile_constants *k, const pa
   }
 }
 
-/* Row n: the pair (i, j), after the built-in terms have acted on it. */
+/* Row n: the pair p of i and j. */
+BODY void tile_row(int dim, unsigned terms, const tile_constants *k, const pair *p,
+                   const particle *i, const particle *j, const double *record, tile_rows *rows,
+                   int n)
+{
+  for (int d = 0; d < dim; d++) {
+    rows->r[d][n] = p->r[d];
+    rows->v[d][n] = i->v[d] - j->v[d];
+  }
+  rows->r2[n] = p->r2;
+  rows->rv[n] = p->rv;
+  if (terms & SPH_NO_SLIP) {
+    vec rv = v_set(0);
+    for (int d = 0; d < dim; d++) {
+      vec v = i->v[d] - j->extra[d];
+      rows->v_viscous[d][n] = v;
+      rv += p->r[d] * v;
+    }
+    rows->rv_viscous[n] = rv;
+  }
+  rows->F[n] = k->F_scale * p->F;
+  rows->V[n] = j->V;
+  rows->m[n] = j->V * j->rho;
+  tile_source(dim, terms, k, j, record, rows, n);
+}
+
+/* The same, after the built-in terms have acted on the pair. */
 BODY void tile_fill(int dim, int kernel, unsigned terms, const tile_constants *k, const vec *slot_i,
                     const vec *slot_j, const double *record, vec *sum, tile_rows *rows, int n)
 {
@@ -123,25 +149,7 @@ BODY void tile_fill(int dim, int kernel, unsigned terms, const tile_constants *k
   pair p = fluid_pair_common(dim, kernel, terms, &k->fluid, &i, &j);
   fluid_terms(dim, kernel, terms, &p, &k->fluid, &i, &j, sum);
   fluid_pair_forces(dim, terms, &p, sum);
-  for (int d = 0; d < dim; d++) {
-    rows->r[d][n] = p.r[d];
-    rows->v[d][n] = i.v[d] - j.v[d];
-  }
-  rows->r2[n] = p.r2;
-  rows->rv[n] = p.rv;
-  if (terms & SPH_NO_SLIP) {
-    vec rv = v_set(0);
-    for (int d = 0; d < dim; d++) {
-      vec v = i.v[d] - j.extra[d];
-      rows->v_viscous[d][n] = v;
-      rv += p.r[d] * v;
-    }
-    rows->rv_viscous[n] = rv;
-  }
-  rows->F[n] = k->F_scale * p.F;
-  rows->V[n] = j.V;
-  rows->m[n] = j.V * j.rho;
-  tile_source(dim, terms, k, &j, record, rows, n);
+  tile_row(dim, terms, k, &p, &i, &j, record, rows, n);
 }
 
 /* Nothing is added yet. */
@@ -198,18 +206,6 @@ BODY void tile_fields(const sph_tile_term *one, tile_rows *rows, sph_tile *tile)
   tile->ds = s < 0 ? NULL : (double *)rows->ds[s];
 }
 
-/* The registered terms, each on rows 0 .. n - 1. */
-static __attribute__((noinline, unused)) void tile_call(int dim, const tile_constants *k,
-                                                        tile_rows *rows, int n)
-{
-  sph_tile tile = tile_open(dim, k, rows, n);
-  tile_clear(k->adds, rows, n);
-  for (int q = 0; q < k->terms; q++) {
-    tile_fields(&k->term[q], rows, &tile);
-    k->term[q].term->pair(k->term[q].term, &tile);
-  }
-}
-
 /* Forces along r, from rows that hold them; dissipative ones heat. */
 BODY void tile_take_along(int dim, const tile_rows *rows, const vec *along, const vec *rv, int n,
                           vec *sum)
@@ -240,23 +236,38 @@ BODY vec tile_total(const vec *row, int n)
   return total;
 }
 
-/* Sums what they added, in the unit of the fluid sums; more: density, scalars. */
-BODY void tile_take(int dim, unsigned terms, const tile_constants *k, const tile_rows *rows, int n,
-                    vec *sum, vec *more)
+/* The registered terms, each on rows 0 .. n - 1; what they added: to the fluid sums `taken`, to
+ * density and scalars `more`.  Not inlined: once for all kernels and places. */
+static __attribute__((noinline, unused)) void
+tile_call(int dim, const tile_constants *k, tile_rows *rows, int n, vec *taken, vec *more)
 {
+  const int no_slip = (k->fluid.terms & SPH_NO_SLIP) != 0;
   const vec unit = v_set(1 / k->F_scale);
-  const int no_slip = (terms & SPH_NO_SLIP) != 0;
-  vec taken[SPH_FLUID_SUMS_ALL] = {{0}};
+  sph_tile tile = tile_open(dim, k, rows, n);
+  tile_clear(k->adds, rows, n);
+  for (int q = 0; q < k->terms; q++) {
+    tile_fields(&k->term[q], rows, &tile);
+    k->term[q].term->pair(k->term[q].term, &tile);
+  }
+  for (int s = 0; s < SPH_SUM_DRIFT; s++) taken[s] = v_set(0);
   if (k->adds & SPH_TILE_PUSH) tile_take_along(dim, rows, rows->push, NULL, n, taken);
   if (k->adds & SPH_TILE_ALONG_R)
     tile_take_along(dim, rows, rows->along_r, no_slip ? rows->rv_viscous : rows->rv, n, taken);
   if (k->adds & SPH_TILE_ALONG_V)
     tile_take_drag(dim, rows, no_slip ? rows->v_viscous : rows->v, n, taken);
   if (k->adds & SPH_TILE_DU) taken[SPH_SUM_HEAT] += tile_total(rows->du, n);
-  for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += unit * taken[SPH_SUM_A + d];
-  sum[SPH_SUM_HEAT] += unit * taken[SPH_SUM_HEAT];
   if (k->adds & SPH_TILE_DRHO) more[0] += unit * tile_total(rows->drho, n);
   for (int s = 0; s < k->scalars; s++) more[1 + s] += unit * tile_total(rows->ds[s], n);
+}
+
+/* Calls them, and sums what they added, in the unit of the fluid sums. */
+BODY void tile_take(int dim, const tile_constants *k, tile_rows *rows, int n, vec *sum, vec *more)
+{
+  const vec unit = v_set(1 / k->F_scale);
+  vec taken[SPH_SUM_DRIFT];
+  tile_call(dim, k, rows, n, taken, more);
+  for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += unit * taken[SPH_SUM_A + d];
+  sum[SPH_SUM_HEAT] += unit * taken[SPH_SUM_HEAT];
 }
 
 /* All pairs of one block; rows go on over the ends of runs. */
@@ -282,13 +293,11 @@ BODY void tile_block(int dim, int kernel, unsigned terms, const sph_pair_task *t
       for (int s = 0; s < slots; s++) j[s] = v_set(source[s]);
       tile_fill(dim, kernel, terms, k, i, j, source, sum, rows, n++);
       if (n < SPH_TILE_ROWS) continue;
-      tile_call(dim, k, rows, n);
-      tile_take(dim, terms, k, rows, n, sum, more);
+      tile_take(dim, k, rows, n, sum, more);
       n = 0;
     }
   }
-  if (n > 0) tile_call(dim, k, rows, n);
-  tile_take(dim, terms, k, rows, n, sum, more);
+  if (n > 0) tile_take(dim, k, rows, n, sum, more);
 }
 
 BODY void tile_blocks(int dim, int kernel, unsigned terms, const sph_pair_task *t, long begin,
@@ -309,16 +318,6 @@ BODY void tile_blocks(int dim, int kernel, unsigned terms, const sph_pair_task *
     for (int s = 0; s <= k->scalars; s++)
       v_store(t->sum[SPH_SUM_DENSITY + s] + b * SPH_LANES, more[s]);
   }
-}
-
-/* The built-in terms run faster where the rare ones are known to be absent. */
-BODY void tile_loop(int dim, int kernel, const sph_pair_task *t, long begin, long end)
-{
-  const unsigned terms = ((const tile_constants *)t->constants)->fluid.terms;
-  if (terms & SPH_RARE)
-    tile_blocks(dim, kernel, terms, t, begin, end);
-  else
-    tile_blocks(dim, kernel, terms & ~(unsigned)SPH_RARE, t, begin, end);
 }
 
 #endif
