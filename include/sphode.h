@@ -17,6 +17,7 @@
 #include "sphode/kernel.h"
 #include "sphode/material.h"
 #include "sphode/neighbors.h"
+#include "sphode/operator.h"
 #include "sphode/output.h"
 #include "sphode/sensitivity.h"
 #include "sphode/sim.h"
