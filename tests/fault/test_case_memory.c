@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "failing.h"
+#include "folder.h"
 #include "sphode.h"
 
 static const char text[] =
@@ -64,13 +65,13 @@ static void every_allocation_of_a_comparison_may_fail(void **state)
       "terms: {continuity: , pressure: }\nrun: {end: 0.02}\noutput: {snapshots: 0.01}\n"
       "compare: [{name: n, quantity: velocity, at: [0.01, 0.02], reference:\n"
       "  {wave: {density: 1, sound_speed: 1, length: 1, amplitude: 0}}}]\n";
-  char directory[] = "/tmp/sphode-memory-XXXXXX";
+  char directory[FOLDER_MAX];
   sph_error error = {0};
   sph_comparison *list;
   int n, status = SPH_OK;
   (void)state;
   fail_at = 0;
-  assert_non_null(mkdtemp(directory));
+  assert_int_equal(folder_make(directory, "memory"), 0);
   sph_case *c = sph_case_read_text("case.yml", wave, strlen(wave), 0, NULL, &error);
   sph_sim *sim = c ? sph_case_build(c, 1, &error) : NULL;
   if (!sim) fail_msg("%s", error.text);
@@ -91,6 +92,7 @@ static void every_allocation_of_a_comparison_may_fail(void **state)
   sph_case_compare_free(list, n);
   sph_sim_free(sim);
   sph_case_free(c);
+  assert_int_equal(folder_remove(directory), 0);
 }
 
 int main(void)

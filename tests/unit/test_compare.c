@@ -11,6 +11,7 @@
 #include <math.h>
 
 #include "case_curve.h"
+#include "folder.h"
 #include "sphode.h"
 
 enum { RUN = 1001, POINTS = 7 };
@@ -236,12 +237,12 @@ static void files_are_read_and_scaled(void **state)
       "compare:\n"
       "  - {name: n, quantity: front, reference: {csv: {file: ref.csv}}, norm: max,\n"
       "     time_scale: T, value_scale: a, divide_by: largest - 1, bar: 0.06}\n";
-  char directory[] = "/tmp/sphode-compare-XXXXXX", path[100];
+  char directory[FOLDER_MAX], path[FOLDER_MAX + 20];
   sph_error error = {0};
   sph_comparison *list;
   int n;
   (void)state;
-  assert_non_null(mkdtemp(directory));
+  assert_int_equal(folder_make(directory, "compare"), 0);
   snprintf(path, sizeof path, "%s/series.csv", directory);
   write_text(path, "# a comment\ntime [s],front [m]\n0,0.5\n2,1\n4,1.5\n"); /* scaled: x, 1 + x */
   snprintf(path, sizeof path, "%s/ref.csv", directory);
@@ -255,6 +256,7 @@ static void files_are_read_and_scaled(void **state)
   assert_true(list[0].pass && list[0].bar == 0.06);
   sph_case_compare_free(list, n);
   sph_case_free(c);
+  assert_int_equal(folder_remove(directory), 0);
 }
 
 /* ---- solutions in space: a wave of amplitude e, compared with one of another amplitude */
@@ -272,14 +274,14 @@ static void files_are_read_and_scaled(void **state)
 typedef struct wave_run {
   sph_case *c;
   sph_sim *sim;
-  char directory[40];
+  char directory[FOLDER_MAX];
 } wave_run;
 
 static wave_run run_wave(const char *text)
 {
   sph_error error = {0};
-  wave_run w = {.directory = "/tmp/sphode-compare-XXXXXX"};
-  assert_non_null(mkdtemp(w.directory));
+  wave_run w;
+  assert_int_equal(folder_make(w.directory, "compare"), 0);
   w.c = sph_case_read_text("wave.yml", text, strlen(text), 0, NULL, &error);
   w.sim = w.c ? sph_case_build(w.c, 1, &error) : NULL;
   if (!w.sim) fail_msg("%s", error.text);
@@ -292,6 +294,7 @@ static void end_wave(wave_run *w)
 {
   sph_sim_free(w->sim);
   sph_case_free(w->c);
+  assert_int_equal(folder_remove(w->directory), 0);
 }
 
 /* A wave of amplitude e against none: rms e/sqrt 2, mean 2 e/pi, largest e; at every time, from
@@ -312,7 +315,7 @@ static void fields_are_compared_at_several_times(void **state)
   const double pi = 3.14159265358979323846;
   sph_error error = {0};
   sph_comparison *list;
-  char path[100];
+  char path[FOLDER_MAX + 20];
   int n;
   (void)state;
   wave_run w = run_wave(text);
