@@ -18,6 +18,7 @@ typedef struct spectrum {
   const prog_options *o;
   sph_case *c;
   sph_sim *sim;
+  sph_jacobian *J;
   char directory[4000];
   long n;          /* eigenvalues */
   double *re, *im; /* [n] [1/s] */
@@ -65,10 +66,29 @@ static double fastest(const sph_sim *sim)
   return most;
 }
 
-/* What there would be to find; told before the work. */
-static int check_size(const spectrum *s, const sph_jacobian *J)
+/* The integrators whose regions are asked for; told before the work. */
+static int check_names(const prog_options *o)
 {
-  long n = J->n;
+  char list[2000] = "", *rest = list, *word;
+  int n = 0;
+  if (!o->integrators) return PROG_OK;
+  snprintf(list, sizeof list, "%s", o->integrators);
+  for (; (word = strsep(&rest, ",")); n++)
+    if (isnan(sph_stability_extent(word, acos(-1))))
+      return sph_prog_error(PROG_USAGE,
+                            "--integrators: \"%s\" is no explicit integrator; see sphode info "
+                            "integrators",
+                            word);
+  if (n <= CURVES) return PROG_OK;
+  return sph_prog_error(PROG_USAGE, "--integrators: %d of them; at most %d are drawn", n, CURVES);
+}
+
+/* What there would be to find; told before the work. */
+static int check_size(spectrum *s)
+{
+  s->J = sph_jacobian_create(s->sim, NULL);
+  if (!s->J) return sph_prog_error(PROG_FAILED, "%s: %s", s->o->what, sph_sim_error(s->sim));
+  long n = s->J->n;
   const sph_group *group;
   for (int g = 0; s->o->frozen && (group = sph_sim_group_get(s->sim, g)); g++)
     if (!strcmp(sph_group_kind(group), "fluid")) n -= sph_sim_dim(s->sim) * sph_group_count(group);
@@ -85,19 +105,13 @@ static int check_size(const spectrum *s, const sph_jacobian *J)
 
 static int find(spectrum *s)
 {
-  sph_jacobian *J = sph_jacobian_create(s->sim, NULL);
-  int status = J ? check_size(s, J) : PROG_OK;
-  if (J && !status) {
-    s->re = malloc((size_t)J->n * sizeof *s->re);
-    s->im = malloc((size_t)J->n * sizeof *s->im);
-    if (!s->re || !s->im) status = sph_prog_error(PROG_FAILED, "out of memory");
-    if (!status && !sph_jacobian_evaluate(J))
-      s->n = sph_jacobian_eigenvalues(J, s->o->frozen, s->re, s->im);
-  }
-  sph_jacobian_free(J);
-  if (!status && sph_sim_status(s->sim))
-    status = sph_prog_error(PROG_FAILED, "%s: %s", s->o->what, sph_sim_error(s->sim));
-  return status;
+  sph_jacobian *J = s->J;
+  s->re = malloc((size_t)J->n * sizeof *s->re);
+  s->im = malloc((size_t)J->n * sizeof *s->im);
+  if (!s->re || !s->im) return sph_prog_error(PROG_FAILED, "out of memory");
+  if (!sph_jacobian_evaluate(J)) s->n = sph_jacobian_eigenvalues(J, s->o->frozen, s->re, s->im);
+  if (!sph_sim_status(s->sim)) return PROG_OK;
+  return sph_prog_error(PROG_FAILED, "%s: %s", s->o->what, sph_sim_error(s->sim));
 }
 
 static void find_steps(spectrum *s)
@@ -228,15 +242,7 @@ static int choose(const spectrum *s, int row[CURVES])
     return n;
   }
   snprintf(list, sizeof list, "%s", s->o->integrators);
-  while (n < CURVES && (word = strsep(&rest, ","))) {
-    row[n] = row_of(s, word);
-    if (row[n++] >= 0) continue;
-    sph_prog_error(PROG_USAGE,
-                   "--integrators: \"%s\" is no explicit integrator; see sphode info "
-                   "integrators",
-                   word);
-    return -1;
-  }
+  while (n < CURVES && (word = strsep(&rest, ","))) row[n++] = row_of(s, word);
   return n;
 }
 
@@ -305,7 +311,7 @@ static void name_directory(spectrum *s)
 
 static int report(const spectrum *s)
 {
-  int row[CURVES], n = choose(s, row), status = n < 0 ? PROG_USAGE : write_values(s);
+  int row[CURVES], n = choose(s, row), status = write_values(s);
   if (!status) status = write_regions(s, row, n);
   if (status) return status;
   pages to = {{open_file(s, "spectrum.txt"), s->o->quiet ? NULL : stdout}};
@@ -323,12 +329,15 @@ static int report(const spectrum *s)
 int sph_prog_spectrum(const prog_options *o)
 {
   spectrum s = {.o = o};
-  int held = -1, status = build(&s);
+  int held = -1, status = check_names(o);
+  if (!status) status = build(&s);
+  if (!status) status = check_size(&s);
   name_directory(&s);
   if (!status && (held = sph_prog_directory_take(s.directory, o->force)) < 0) status = PROG_FAILED;
   if (!status) status = find(&s);
   if (!status) find_steps(&s);
   if (!status) status = report(&s);
+  sph_jacobian_free(s.J);
   sph_sim_free(s.sim);
   sph_case_free(s.c);
   free(s.re);

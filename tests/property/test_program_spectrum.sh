@@ -57,6 +57,10 @@ ok $? "regions of chosen integrators"
 refused 1 "too many eigenvalues" "at most 4000.*--set spacing" "$SRCDIR/cases/taylor-green-2d.yml"
 refused 2 "an integrator that is not explicit" "no explicit integrator" "$wave" -o bad --set spacing=1/32 \
   --integrators imex:ark324l2sa-4-2-3
+refused 2 "too many of them" "9 of them; at most 8" "$wave" -o bad --set spacing=1/32 \
+  --integrators "$(printf 'leapfrog,%.0s' {1..8})dkd"
+[[ ! -e bad && ! -e taylor-green-2d-spectrum ]]
+ok $? "what is refused leaves no folder"
 refused 1 "what ended stays" "force" "$wave" -o wave --set spacing=1/32
 run 0 "$sphode" spectrum --help && grep -q -- --frozen out
 ok $? "help"
