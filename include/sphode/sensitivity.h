@@ -19,8 +19,8 @@ extern "C" {
 /* A parameter by name:
  *   h                       smoothing length [m], at fixed spacing and masses
  *   TERM.NUMBER             viscosity-artificial.alpha, .beta, viscosity-signal.alpha, .beta,
- *                           conductivity-artificial.alpha, delta.delta, xsph.epsilon,
- *                           harmonic.omega, gravity.x, .y, .z
+ *                           conductivity-artificial.alpha, delta.delta, xsph.epsilon, drag.K or
+ *                           drag.rate (1/stopping time), harmonic.omega, gravity.x, .y, .z
  *   GROUP.viscosity, GROUP.conductivity, GROUP.temperature (of a wall)
  *   GROUP.c0, .rho0, .gamma, .p_background, .p_inf, .q, .slope, .grueneisen, .c_v
  *                           of its equation of state, in all groups that have the same one
@@ -29,8 +29,9 @@ extern "C" {
  * to c0, is the user's to tell: sph_sensitivity_write. */
 typedef struct sph_sensitivity_parameter {
   const char *name; /* copied */
-  double *own;      /* a number of yours that callbacks read: changed and restored while they are
-                  differenced; then any name.  NULL: one of the above */
+  /* A number of yours that callbacks read (terms, equations of state, motions of walls): changed
+   * and restored while they are differenced; then any name.  NULL: one of the above. */
+  double *own;
 } sph_sensitivity_parameter;
 
 typedef struct sph_sensitivity sph_sensitivity;
@@ -44,8 +45,9 @@ SPH_API void sph_sensitivity_free(sph_sensitivity *sensitivity); /* NULL is fine
 /* Parameter k = 0, 1, ... that a simulation has, to name[size]; 0 behind the last. */
 SPH_API int sph_sensitivity_known(sph_sim *sim, int k, char *name, size_t size);
 
-/* Runs simulation and sensitivities to t_end [s]; may be called again to go on.  Outputs of the
- * simulation are not written. */
+/* Runs simulation and sensitivities from the state of the simulation to t_end [s]; may be called
+ * again to go on, also from fields that were written (sensitivities stay), but not behind a run
+ * without them.  Outputs of the simulation are not written. */
 SPH_API int sph_sensitivity_run(sph_sensitivity *sensitivity, double t_end);
 
 /* d(field)/dtheta_k of an integrated field of a fluid, [count]; to be written before the first run

@@ -151,7 +151,8 @@ void sph_sim_parameter_own(const char *name, double *value, sph_parameter *param
 {
   *parameter = (sph_parameter){.value = value,
                                .scale = *value != 0 ? fabs(*value) : 1,
-                               .acts = SPH_ACTS_ALL};
+                               .acts = SPH_ACTS_ALL,
+                               .is_own = 1};
   snprintf(parameter->name, sizeof parameter->name, "%s", name);
 }
 

@@ -14,6 +14,7 @@ typedef struct sph_parameter {
   double scale;  /* its size: |value|, or what stands for that of a zero */
   unsigned acts;
   int is_h;          /* the smoothing length, which others are made of */
+  int is_own;        /* the user's own: callbacks may read it */
   size_t eos_member; /* > 0: offset in sph_eos, of all groups that share one equation of state */
   unsigned char shares[SPH_SETS_MAX]; /* whether group g is one of them */
 } sph_parameter;

@@ -121,6 +121,18 @@ static void clear_sums(sph_tangent *t, int g)
       memset(t->group[g].sum_d[s], 0, (size_t)t->sim->sorted[g].room * sizeof(double));
 }
 
+/* Records of group g that hold positions and what does not change. */
+static void positions(const sph_tangent *t, int g)
+{
+  const sph_sim *sim = t->sim;
+  const int *order = sph_neighbors_order(sim->neighbors, g);
+  const long stride = sim->sorted[g].stride;
+  double *record = t->group[g].record_d;
+  memset(record, 0, (size_t)(sim->sorted[g].room * stride) * sizeof *record);
+  for (long s = 0; s < sim->group[g]->n; s++)
+    for (int d = 0; d < sim->dim; d++) record[s * stride + d] = t->group[g].point[order[s]].x[d];
+}
+
 /* For summed densities; records hold positions and masses. */
 static int density(sph_tangent *t)
 {
@@ -128,14 +140,7 @@ static int density(sph_tangent *t)
   int status = sph_sim_density(&t->e);
   if (status || !t->e.part->density) return status;
   const double W_d = sph_sim_tangent_call_number(t, &sim->W_scale);
-  for (int g = 0; g < sim->groups; g++) {
-    const int *order = sph_neighbors_order(sim->neighbors, g);
-    const long stride = sim->sorted[g].stride;
-    memset(t->group[g].record_d, 0, (size_t)(sim->sorted[g].room * stride) * sizeof(double));
-    for (long s = 0; s < sim->group[g]->n; s++)
-      for (int d = 0; d < sim->dim; d++)
-        t->group[g].record_d[s * stride + d] = t->group[g].point[order[s]].x[d];
-  }
+  for (int g = 0; g < sim->groups; g++) positions(t, g);
   for (int g = 0; g < sim->groups; g++) {
     if (sim->group[g]->wall) continue;
     const int *order = sph_neighbors_order(sim->neighbors, g);
@@ -222,8 +227,7 @@ static void wall(sph_tangent *t, int g)
 {
   sph_sim *sim = t->sim;
   const int *order = sph_neighbors_order(sim->neighbors, g);
-  memset(t->group[g].record_d, 0,
-         (size_t)(sim->sorted[g].room * sim->sorted[g].stride) * sizeof(double));
+  positions(t, g);
   clear_sums(t, g);
   sph_sim_walls_force(&t->e, g, t->g_minus_a[g]);
   for (int f = 0; f < sim->groups; f++)
@@ -385,7 +389,10 @@ int sph_sim_tangent(sph_sim *sim, int part, double t, const double *y, const dou
   own->s = s;
   own->theta = theta;
   memset(out, 0, (size_t)sim->layout.length * sizeof *out);
-  for (int g = 0; g < sim->groups; g++) take_state(own, g);
+  for (int g = 0; g < sim->groups; g++) {
+    take_state(own, g);
+    if (sim->group[g]->wall) sph_sim_tangent_call_motion(own, g);
+  }
   int status = sph_sim_walls_move(&own->e);
   if (!status && own->e.part->lists) status = sph_sim_lists_update(&own->e);
   if (!status) status = density(own);

@@ -100,6 +100,7 @@ int sph_sim_tangent_call_field(sph_tangent *tangent, int member);
 void sph_sim_tangent_call_phi(sph_tangent *tangent, int walls); /* the user's phi, to the points */
 void sph_sim_tangent_call_tiles(sph_tangent *tangent); /* registered pair terms, to the sums */
 /* Along theta, at fixed state and sums: */
+void sph_sim_tangent_call_motion(sph_tangent *tangent, int g); /* of a wall, to the points */
 int sph_sim_tangent_call_eos(sph_tangent *tangent); /* p, c, u, T of fluids, to the points */
 void sph_sim_tangent_call_walls(sph_tangent *tangent, int g); /* p, rho, m, c of a wall, likewise */
 int sph_sim_tangent_call_rates(sph_tangent *tangent, double *out); /* rates, to out */

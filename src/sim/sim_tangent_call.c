@@ -99,6 +99,32 @@ int sph_sim_tangent_call_eos(sph_tangent *t)
   return acts(t, SPH_ACTS_EOS) && !status ? sph_sim_material_eos(&t->e) : status;
 }
 
+/* Walls move as their callback says. */
+void sph_sim_tangent_call_motion(sph_tangent *t, int g)
+{
+  const sph_boundary *boundary = &t->sim->group[g]->boundary;
+  const double value = theta_value(t), step = theta_step(t, SMOOTH);
+  double x_d[3] = {0}, v_d[3] = {0};
+  sph_point *point = t->group[g].point;
+  if (!t->theta || !t->theta->is_own || !boundary->motion) return;
+  for (int k = 0; k < POINTS; k++) {
+    double x[3] = {0}, v[3] = {0}, a[3] = {0};
+    set_theta(t, value, at[k] * step);
+    boundary->motion(boundary->ctx, t->e.t, x, v, a);
+    for (int d = 0; d < t->sim->dim; d++) {
+      x_d[d] += weight[k] / step * x[d];
+      v_d[d] += weight[k] / step * v[d];
+    }
+  }
+  set_theta(t, value, 0);
+  for (long i = 0; i < t->sim->group[g]->n; i++)
+    for (int d = 0; d < t->sim->dim; d++) {
+      point[i].x[d] = x_d[d];
+      point[i].v[d] = v_d[d];
+      point[i].extra[d] = 2 * v_d[d]; /* as slip_velocity of sim_pairs.c */
+    }
+}
+
 void sph_sim_tangent_call_walls(sph_tangent *t, int g)
 {
   const double value = theta_value(t), step = theta_step(t, STEP);
@@ -273,12 +299,13 @@ void sph_sim_tangent_call_phi(sph_tangent *t, int walls)
 {
   sph_sim *sim = t->sim;
   const sph_term *term = &sim->terms.phi;
-  const double size = size_of(t);
+  const double size = size_of(t), value = theta_value(t);
   for (int g = 0; g < sim->groups && term->phi && size > 0; g++) {
     if (sim->group[g]->wall != walls) continue;
     double *phi = sim->sorted[g].phi;
     sph_evaluation e = t->e;
     for (int k = 0; k < POINTS; k++) {
+      set_theta(t, value, t->theta ? at[k] * STEP / size : 0);
       e.view[g] = moved(t, g, at[k] * STEP / size);
       const sph_particles particles = sph_sim_bodies_particles(&e, g);
       term->phi(term, &particles, phi);
@@ -286,6 +313,7 @@ void sph_sim_tangent_call_phi(sph_tangent *t, int walls)
         t->group[g].point[i].phi += weight[k] * size / STEP * phi[i];
     }
   }
+  set_theta(t, value, 0);
   if (term->phi) sph_sim_material_phi(&t->e, walls);
 }
 

@@ -306,8 +306,20 @@ static void own_pair(const sph_term *term, const sph_tile *tile)
 
 static void own_phi(const sph_term *term, const sph_particles *p, double *phi)
 {
-  (void)term;
-  for (long i = 0; i < p->n; i++) phi[i] = 1 + p->rho[i] / 1000 + 0.1 * sin(p->x[0][i]);
+  const double k = *(const double *)term->ctx;
+  for (long i = 0; i < p->n; i++) phi[i] = 1 + k * p->rho[i] / 1000 + 0.1 * sin(p->x[0][i]);
+}
+
+/* A wall that swings. */
+static void own_motion(void *ctx, double t, double displacement[3], double velocity[3],
+                       double acceleration[3])
+{
+  const double k = *(const double *)ctx;
+  for (int d = 0; d < 3; d++) {
+    displacement[d] = 0.01 * k * sin(t + d + 1);
+    velocity[d] = k * k * cos(t + d + 1);
+    acceleration[d] = -10 * k * sin(t + d + 1);
+  }
 }
 
 /* Tait's, without its slopes. */
@@ -336,8 +348,12 @@ static void callbacks(void **state)
       s.o.laminar = ORACLE_MORRIS;
       sph_sim *sim = scene_sim(&s, (scene_options){.threads = 1});
       sph_group_set_eos(sph_sim_group(sim, "water"), own_eos());
+      sph_boundary boundary = sph_boundary_adami_no_slip();
+      boundary.motion = own_motion, boundary.ctx = &k, boundary.tension = 1;
+      if (walls) sph_group_set_boundary(sph_sim_group(sim, "floor"), boundary);
       if (walls == 1)
-        sph_sim_add_term(sim, (sph_term){.name = "continuity", .form = "phi", .phi = own_phi});
+        sph_sim_add_term(
+            sim, (sph_term){.name = "continuity", .form = "phi", .phi = own_phi, .ctx = &k});
       sph_sim_add_term(sim, (sph_term){.name = "own",
                                        .body = own_body,
                                        .pair = own_pair,
