@@ -36,7 +36,7 @@ typedef struct sph_jacobian {
 SPH_API sph_jacobian *sph_jacobian_create(sph_sim *sim, const sph_jacobian_def *def);
 SPH_API void sph_jacobian_free(sph_jacobian *jacobian); /* NULL is fine */
 
-/* Pattern and values at the present state of the simulation.  0, or a failure that sticks to the
+/* Pattern and values at the state that the simulation shows.  0, or a failure that sticks to the
  * simulation. */
 SPH_API int sph_jacobian_evaluate(sph_jacobian *jacobian);
 /* ... at (t [s], y), y an array as that of sph_sim_vector.  Also SPH_RETRY: y is not admissible. */

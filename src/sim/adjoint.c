@@ -62,6 +62,9 @@ static int take_table(sph_adjoint *a)
                         "adjoint: integrator %s, dt_fixed = %g s; right is an explicit Runge-Kutta "
                         "scheme, as erk:bogacki-shampine-4-2-3, with fixed steps",
                         sph_sim_integrator(sim), def->dt_fixed);
+  if (def->relax)
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "adjoint: steps relax, which its own do not; right is relax = NULL");
   a->h = def->dt_fixed;
   if (sim->watches || sim->modifiers)
     return sph_sim_fail(sim, SPH_ERR_STATE,

@@ -209,7 +209,7 @@ int sph_jacobian_evaluate(sph_jacobian *open)
 {
   const jacobian *J = (const jacobian *)open;
   if (!J) return SPH_ERR_ARGUMENT;
-  int status = sph_jacobian_evaluate_at(open, J->sim->time, sph_nvector_data(J->sim->y));
+  int status = sph_jacobian_evaluate_at(open, J->sim->time, sph_nvector_data(J->sim->shown));
   if (status > 0)
     status = sph_sim_fail(J->sim, SPH_ERR_STEP, "no Jacobian at t = %g s: %s", J->sim->time,
                           J->sim->retry);

@@ -106,6 +106,10 @@ static int check_integrator(sph_sim *sim)
                         "sensitivities: integrator %s; right is one that steps all terms alike, as "
                         "erk:bogacki-shampine-4-2-3",
                         sph_sim_integrator(sim));
+  if (def->relax)
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "sensitivities: steps relax, and how much depends on the parameters; right "
+                        "is relax = NULL");
   if (sim->watches || sim->modifiers)
     return sph_sim_fail(sim, SPH_ERR_STATE,
                         "sensitivities: %d events and %d modifiers change a run; right is none",
@@ -192,9 +196,28 @@ static void show(sph_sensitivity *s)
   sph_sim_changed(sim);
 }
 
+/* A run begins with the state of the simulation: what was written since the last one, or since
+ * this was made, counts. */
+static int take_state(sph_sensitivity *s)
+{
+  const sph_sim *sim = s->sim;
+  const size_t bytes = (size_t)sim->layout.length * sizeof(double);
+  const double t = sph_integrator_time(s->integrator);
+  if (s->started && sim->time != t)
+    return sph_sim_fail(s->sim, SPH_ERR_STATE,
+                        "sensitivities: of t = %g s, but the simulation went on to %g s without "
+                        "them",
+                        t, sim->time);
+  if (sim->time == t && !memcmp(sph_nvector_data(s->y), sph_nvector_data(sim->y), bytes))
+    return SPH_OK;
+  memcpy(sph_nvector_data(s->y), sph_nvector_data(sim->y), bytes);
+  return sph_integrator_reset(s->integrator, sim->time);
+}
+
 int sph_sensitivity_run(sph_sensitivity *s, double t_end)
 {
-  if (!s || !sph_sim_data_ok(s->sim)) return s ? sph_sim_status(s->sim) : SPH_ERR_ARGUMENT;
+  if (!s || !sph_sim_data_ok(s->sim) || take_state(s))
+    return s ? sph_sim_status(s->sim) : SPH_ERR_ARGUMENT;
   sph_sim *sim = s->sim;
   double t = sph_integrator_time(s->integrator);
   if (!(isfinite(t_end) && t_end >= t))

@@ -351,6 +351,10 @@ static void refusals(void **state)
   sph_sim *sim = block(theta, NULL, 0);
   sph_sim_set_integrator(sim, &(sph_integrator_def){.tolerance = 1e-3});
   refuse(sim, good, "dt_fixed = 0");
+  sim = block(theta, NULL, 0);
+  sph_group_set_energy(sph_sim_group(sim, "water"), "u"); /* temperature does not relax */
+  sph_sim_set_integrator(sim, &(sph_integrator_def){.dt_fixed = dt, .relax = "energy"});
+  refuse(sim, good, "relax"); /* SUNDIALS before 6.6 has none */
   refuse(block(theta, NULL, 0), (sph_adjoint_def){0}, "end missing, a running part missing");
   refuse(block(theta, NULL, 0), (sph_adjoint_def){.functional.end = end}, "without gradient");
   refuse(block(theta, NULL, 0), (sph_adjoint_def){.functional = functionals[0], .n = 1},

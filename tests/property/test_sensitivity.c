@@ -234,6 +234,34 @@ static void error_control(void **state)
   for (int m = 0; m < WATCHED; m++) assert_true(fabs(q[1][m] - q[0][m]) < 1e-8 * fabs(q[0][m]));
 }
 
+/* A run begins with the fields as they are, whenever they were written. */
+static void fields_that_are_written(void **state)
+{
+  (void)state;
+  const sph_sensitivity_parameter g = {"gravity.y", NULL};
+  double rho[2], slope[2];
+  for (int late = 0; late < 2; late++) {
+    sph_sim *sim = falling(NULL, 2e-3);
+    sph_group *drop = sph_sim_group(sim, "drop");
+    sph_sensitivity *s = late ? sph_sensitivity_create(sim, 1, &g) : NULL;
+    for (int part = 0; part < 2; part++) { /* before the first run, and between runs */
+      double *v = sph_group_write(drop, "velocity", 0);
+      for (long i = 0; i < sph_group_count(drop); i++) v[i] *= 2;
+      sph_sim_changed(sim);
+      if (!s) s = sph_sensitivity_create(sim, 1, &g);
+      if (sph_sensitivity_run(s, 0.02 * (1 + part))) fail_msg("%s", sph_sim_error(sim));
+    }
+    rho[late] = sph_group_read(drop, "density", 0)[5];
+    slope[late] = sph_sensitivity_read(s, 0, drop, "position", 1)[5];
+    assert_int_equal(sph_sim_run(sim, 0.05), SPH_OK);
+    assert_int_equal(sph_sensitivity_run(s, 0.06), SPH_ERR_STATE);
+    assert_non_null(strstr(sph_sim_error(sim), "went on to 0.05 s without them"));
+    sph_sensitivity_free(s);
+    sph_sim_free(sim);
+  }
+  assert_true(rho[0] == rho[1] && slope[0] == slope[1]);
+}
+
 /* ---- refusals ---- */
 
 static void refuse(sph_sim *sim, const char *parameter, const char *what)
@@ -255,6 +283,9 @@ static void refusals(void **state)
   sph_sim *sim = block(theta, NULL);
   sph_sim_set_integrator(sim, &(sph_integrator_def){.method = "imex:ark324l2sa-4-2-3"});
   refuse(sim, "h", "steps all terms alike");
+  sim = falling(NULL, 1e-3);
+  sph_sim_set_integrator(sim, &(sph_integrator_def){.relax = "energy"});
+  refuse(sim, "h", "relax"); /* SUNDIALS before 6.6 has none */
   sim = falling(NULL, 1e-3);
   sph_sim_add_event(sim, &(sph_event){.name = "far", .type = "front", .threshold = 5});
   refuse(sim, "h", "events");
@@ -281,8 +312,10 @@ static void refusals(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(runge_kutta), cmocka_unit_test(leapfrog),      cmocka_unit_test(others),
-      cmocka_unit_test(fall),        cmocka_unit_test(error_control), cmocka_unit_test(refusals),
+      cmocka_unit_test(runge_kutta),   cmocka_unit_test(leapfrog),
+      cmocka_unit_test(others),        cmocka_unit_test(fall),
+      cmocka_unit_test(error_control), cmocka_unit_test(fields_that_are_written),
+      cmocka_unit_test(refusals),
   };
   return cmocka_run_group_tests_name("sensitivity", tests, NULL, NULL);
 }
