@@ -63,6 +63,9 @@ SPH_API int sph_sim_weights(N_Vector y, N_Vector weight, void *sim);
  * is the derivative of one side.  Returns as sph_sim_rhs. */
 SPH_API int sph_sim_jacobian_times(N_Vector v, N_Vector Jv, double t, N_Vector y, N_Vector fy,
                                    void *sim, N_Vector tmp);
+/* ... of the implicit part alone, for Newton's method of ARKStep (ARKStepSetJacTimes). */
+SPH_API int sph_sim_jacobian_times_implicit(N_Vector v, N_Vector Jv, double t, N_Vector y,
+                                            N_Vector fy, void *sim, N_Vector tmp);
 /* Jw = (df/dy)^T(t, y) w, for adjoints, in about 15 times the time of the product above; not with
  * tiles and a phi of your own (SPH_ERR_ARGUMENT). */
 SPH_API int sph_sim_jacobian_transposed_times(N_Vector w, N_Vector Jw, double t, N_Vector y,

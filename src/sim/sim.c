@@ -394,6 +394,7 @@ int sph_sim_set_vector(sph_sim *sim, double t, N_Vector y)
     return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                         "sph_sim_set_vector: t = %g s, y %s; right is a finite time and a vector",
                         t, y ? "given" : "NULL");
+  if (sph_sim_rhs_vectors(sim, y, sim->y)) return sim->error.status;
   if (y != sim->y) N_VScale(1, y, sim->y);
   sim->shown = sim->y;
   sim->time = t;
@@ -415,6 +416,7 @@ int sph_sim_solve(sph_sim *sim, double t, double gamma, double tolerance, N_Vect
                         !z           ? "NULL"
                         : known == z ? "the same"
                                      : "given");
+  if (sph_sim_rhs_vectors(sim, known, z)) return sim->error.status;
   if (!isfinite(N_VL1Norm(known)) || !isfinite(N_VL1Norm(z)))
     return sph_sim_admit_retry(sim, "sph_sim_solve: a number of %s is not finite",
                                isfinite(N_VL1Norm(known)) ? "z" : "known");
@@ -423,7 +425,9 @@ int sph_sim_solve(sph_sim *sim, double t, double gamma, double tolerance, N_Vect
     return SPH_OK;
   }
   sph_stage stage = {.t = t, .gamma = gamma, .tolerance = tolerance, .known = known, .z = z};
-  return sph_sim_implicit_solve(&stage, sim);
+  status = sph_sim_implicit_solve(&stage, sim);
+  sim->derived = 0;
+  return status;
 }
 
 const char *sph_sim_retry_reason(const sph_sim *sim) { return sim ? sim->retry : ""; }

@@ -38,20 +38,30 @@ int sph_sim_rhs_part(sph_sim *sim, const sph_part *part, double t, N_Vector y, N
   sph_evaluation e = {.sim = sim, .t = t, .part = part};
   views(&e, y, ydot);
   int status = phases(&e);
+  sim->derived = 0; /* pressure etc. are those of y */
   sim->rhs_seconds += sph_clock() - begin;
   return status;
 }
 
-int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *ctx)
+int sph_sim_rhs_vectors(sph_sim *sim, N_Vector y, N_Vector other)
 {
-  sph_sim *sim = ctx;
-  return sph_sim_rhs_part(sim, &sim->part[SPH_WHOLE], t, y, ydot);
+  const long length = sim->layout.length;
+  if (sph_nvector_holds(y, length) && sph_nvector_holds(other, length)) return SPH_OK;
+  return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                      "a vector is none of this simulation; right are sph_sim_vector's and its "
+                      "clones (N_VClone)");
 }
 
 int sph_sim_rhs_piece(int piece, double t, N_Vector y, N_Vector ydot, void *ctx)
 {
   sph_sim *sim = ctx;
-  return sph_sim_rhs_part(sim, &sim->part[piece], t, y, ydot);
+  int status = sph_sim_rhs_vectors(sim, y, ydot);
+  return status ? status : sph_sim_rhs_part(sim, &sim->part[piece], t, y, ydot);
+}
+
+int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *ctx)
+{
+  return sph_sim_rhs_piece(SPH_WHOLE, t, y, ydot, ctx);
 }
 
 int sph_sim_rhs_explicit(double t, N_Vector y, N_Vector ydot, void *ctx)

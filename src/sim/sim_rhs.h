@@ -19,8 +19,10 @@ typedef struct sph_evaluation {
 int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y);
 /* Any part of f; lists, records, pressures and walls are then those of (t, y). */
 int sph_sim_rhs_part(sph_sim *sim, const sph_part *part, double t, N_Vector y, N_Vector ydot);
-/* A part of f: enum sph_piece. */
+/* A part of f: enum sph_piece, or SPH_WHOLE. */
 int sph_sim_rhs_piece(int piece, double t, N_Vector y, N_Vector ydot, void *sim);
+/* Are these two of the simulation, or longer?  Else recorded. */
+int sph_sim_rhs_vectors(sph_sim *sim, N_Vector y, N_Vector other);
 
 int sph_sim_lists_update(sph_evaluation *e);           /* neighbors */
 int sph_sim_density(sph_evaluation *e);                /* density */

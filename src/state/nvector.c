@@ -52,6 +52,12 @@ static double *data(N_Vector v) { return of(v)->data; }
 double *sph_nvector_data(N_Vector v) { return data(v); }
 const sph_layout *sph_nvector_layout(N_Vector v) { return of(v)->shared->layout; }
 
+int sph_nvector_holds(N_Vector v, long length)
+{
+  return v && v->ops->nvgetarraypointer == sph_nvector_data && data(v) &&
+         sph_nvector_layout(v)->length >= length;
+}
+
 /* Entries of chunk k: they follow the segment's n, which may change between steps. */
 static long chunk_end(const shared *s, int k)
 {

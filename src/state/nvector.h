@@ -18,6 +18,8 @@ N_Vector sph_nvector_clone(N_Vector w, const char *what, sph_error *error);
 /* How many such vectors live; while there are any, no operation on v and its relatives does
  * anything. */
 long sph_nvector_lost(N_Vector v);
+/* Is it such a vector, with entries, of a layout of at least that length? */
+int sph_nvector_holds(N_Vector v, long length);
 double *sph_nvector_data(N_Vector v);
 const sph_layout *sph_nvector_layout(N_Vector v);
 #endif

@@ -213,9 +213,94 @@ static void state_from_elsewhere(void **state)
   sph_sim_free(b);
 }
 
+/* What a solver evaluates elsewhere is not what the simulation shows. */
+static void evaluations_elsewhere(void **state)
+{
+  (void)state;
+  double vx = 0.3;
+  sph_sim *sim = square(&vx);
+  const sph_group *group = sph_sim_group(sim, "square");
+  N_Vector y = sph_sim_vector(sim), beside = N_VClone(y), out = N_VClone(y);
+  const size_t n = (size_t)sph_group_count(group);
+  N_VScale(1.001, y, beside);
+  N_VConst(0, out);
+  for (int k = 0; k < 4; k++) {
+    double *pressure = calloc(n, sizeof *pressure);
+    assert_non_null(pressure);
+    memcpy(pressure, sph_group_read(group, "pressure", 0), n * sizeof *pressure);
+    int status = k == 0   ? sph_sim_rhs(0, beside, out, sim)
+                 : k == 1 ? sph_sim_rhs_explicit(0, beside, out, sim)
+                 : k == 2 ? sph_sim_jacobian_times(y, out, 0, beside, NULL, sim, NULL)
+                          : sph_sim_jacobian_transposed_times(y, out, 0, beside, NULL, sim, NULL);
+    assert_int_equal(status, 0);
+    assert_memory_equal(sph_group_read(group, "pressure", 0), pressure, n * sizeof *pressure);
+    free(pressure);
+  }
+  N_VDestroy(beside), N_VDestroy(out);
+  sph_sim_free(sim);
+}
+
+/* Vectors of another kind, of a smaller simulation, none. */
+static void foreign_vectors(void **state)
+{
+  (void)state;
+  double vx = 0;
+  sph_sim *small = sph_sim_create(&(sph_sim_def){.dim = 1, .dx = 0.5});
+  sph_group *few = sph_group_box(small, "few", (double[]){0}, (double[]){1}, 1000);
+  sph_group_set_eos(few, sph_eos_tait(1000, 10, 7));
+  sph_sim_add_term(small, sph_term_pressure());
+  N_Vector of_small = sph_sim_vector(small), other = N_VNewEmpty(of_small->sunctx);
+  N_Vector bad[] = {NULL, other, of_small};
+  for (int k = 0; k < 3; k++)
+    for (int call = 0; call < 7; call++) {
+      sph_sim *sim = square(&vx);
+      N_Vector y = sph_sim_vector(sim), good = N_VClone(y);
+      int status = call == 0   ? sph_sim_rhs(0, bad[k], good, sim)
+                   : call == 1 ? sph_sim_rhs_fast(0, y, bad[k], sim)
+                   : call == 2 ? sph_sim_jacobian_times(bad[k], good, 0, y, NULL, sim, NULL)
+                   : call == 3 ? sph_sim_jacobian_times_implicit(y, bad[k], 0, y, NULL, sim, NULL)
+                   : call == 4
+                       ? sph_sim_jacobian_transposed_times(y, good, 0, bad[k], NULL, sim, NULL)
+                   : call == 5 ? sph_sim_solve(sim, 0, 1, 1e-6, y, bad[k])
+                               : sph_sim_set_vector(sim, 0, bad[k]);
+      assert_int_equal(status, SPH_ERR_ARGUMENT);
+      if (k || call < 5) assert_non_null(strstr(sph_sim_error(sim), "none of this simulation"));
+      N_VDestroy(good);
+      sph_sim_free(sim);
+    }
+  N_VFreeEmpty(other);
+  sph_sim_free(small);
+}
+
+/* Viscosity is linear in the velocities: what it makes of them is its derivative times them. */
+static void implicit_products(void **state)
+{
+  (void)state;
+  double vx = 0.3;
+  sph_sim *sim = square(&vx);
+  sph_group *group = sph_sim_group(sim, "square");
+  sph_group_set_viscosity(group, 5);
+  sph_sim_add_term(sim, sph_term_viscosity_laminar("morris"));
+  sph_sim_set_part(sim, "viscosity-laminar", "implicit");
+  N_Vector y = sph_sim_vector(sim), v = N_VClone(y), f = N_VClone(y), Jv = N_VClone(y);
+  long at = sph_group_read(group, "velocity", 0) - N_VGetArrayPointer(y);
+  N_VConst(0, v);
+  for (long i = at; i < at + sph_group_count(group); i++)
+    N_VGetArrayPointer(v)[i] = N_VGetArrayPointer(y)[i];
+  assert_int_equal(sph_sim_rhs_implicit(0, y, f, sim), 0);
+  assert_int_equal(sph_sim_jacobian_times_implicit(v, Jv, 0, y, f, sim, NULL), 0);
+  N_VLinearSum(1, f, -1, Jv, Jv);
+  assert_true(N_VMaxNorm(f) > 0.1 && N_VMaxNorm(Jv) < 1e-13 * N_VMaxNorm(f));
+  N_VDestroy(v), N_VDestroy(f), N_VDestroy(Jv);
+  sph_sim_free(sim);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(rates),
+                                     cmocka_unit_test(evaluations_elsewhere),
+                                     cmocka_unit_test(implicit_products),
+                                     cmocka_unit_test(foreign_vectors),
                                      cmocka_unit_test(parts),
                                      cmocka_unit_test(stages),
                                      cmocka_unit_test(numbers_of_stages),
