@@ -364,6 +364,15 @@ static int check_drag(sph_case *c)
   return FAIL_KEY(drag, "missing key 'coefficient' or 'stopping_time' in drag");
 }
 
+/* With imex, where no term has a part. */
+static int implicit_by_default(const sph_case_node *terms)
+{
+  static const char *const names[] = {"viscosity-laminar", "conduction", "drag"};
+  int found = 0;
+  for (int k = 0; k < 3; k++) found |= sph_case_reader_find(terms, names[k]) != NULL;
+  return found;
+}
+
 int sph_case_check_parts(const sph_case *c, sph_error *error)
 {
   sph_error own = {0};
@@ -389,9 +398,11 @@ int sph_case_check_parts(const sph_case *c, sph_error *error)
   if (mri && !fast)
     return sph_case_schema_fail(c, error, method, 1, 0,
                                 "method: %s needs fast terms; none has part: fast", name);
-  if (imex && parts && !implicit)
+  if (imex && !implicit && (parts || !implicit_by_default(terms)))
     return sph_case_schema_fail(c, error, method, 1, 0,
-                                "method: %s needs implicit terms; none has part: implicit", name);
+                                "method: %s needs implicit terms; none has part: implicit%s", name,
+                                parts ? ""
+                                      : ", and there is no viscosity-laminar, conduction, drag");
   return SPH_OK;
 }
 
