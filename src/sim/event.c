@@ -185,7 +185,8 @@ static int check_place(const sph_event *event, const sph_sim *sim, sph_error *er
                                .axis = event->axis};
   sph_error wrong = {0};
   if (!event->type || sph_monitor_check(&monitor, sim, &wrong) == SPH_OK) return SPH_OK;
-  return sph_error_set(error, wrong.status, "event: %s", wrong.text);
+  const char *colon = strchr(wrong.text, ':'); /* behind "monitor NAME" */
+  return sph_error_set(error, wrong.status, "event %s%s", event->name, colon ? colon : "");
 }
 
 static int check_name(const sph_event *event, const sph_sim *sim, sph_error *error)

@@ -90,8 +90,9 @@ static void events(void **state)
   e = good, e.samples = 65, bad_event(e, "samples = 65; right is 0 to 64");
   e = good, e.threshold = NAN, bad_event(e, "threshold = nan");
   e = good, e.threshold = INFINITY, bad_event(e, "threshold = inf");
-  bad_event((sph_event){.name = "e", .type = "front", .axis = 2}, "axis 2; 0 to 1 are right");
-  bad_event((sph_event){.name = "e", .type = "front", .axis = -1}, "axis -1");
+  bad_event((sph_event){.name = "e", .type = "front", .axis = 2},
+            "event e: axis 2; 0 to 1 are right");
+  bad_event((sph_event){.name = "e", .type = "front", .axis = -1}, "event e: axis -1");
   bad_event((sph_event){.name = "e", .type = "front", .group = "oil"}, "no fluid group \"oil\"");
   bad_event((sph_event){.name = "e", .type = "front", .group = "floor"}, "\"floor\"");
   bad_event((sph_event){.name = "e", .type = "wet", .x = {0, NAN}}, "x[1] = nan");

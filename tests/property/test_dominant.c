@@ -117,34 +117,24 @@ static void check(const char *what, unsigned terms, int k, double most)
   scene_free(&s);
 }
 
-static void waves(void **state)
+/* Nine scenes: one to three dimensions, one and two fluids, no, one and two walls, all kernels. */
+static void scenes(const char *what, unsigned terms, double most)
 {
-  (void)state;
-  for (int k = 0; k < 3; k++) check("waves", 0, k, 4);
+  for (int k = 0; k < 9; k++) check(what, terms, k, most);
 }
-static void morris(void **state)
-{
-  (void)state;
-  for (int k = 0; k < 3; k++) check("morris", MORRIS, k, 2);
-}
-static void mcg(void **state)
-{
-  (void)state;
-  for (int k = 0; k < 3; k++) check("mcg", MCG, k, 2);
-}
-static void conduction(void **state)
-{
-  (void)state;
-  for (int k = 0; k < 3; k++) check("conduction", CONDUCTION, k, 2);
-}
+
+static void waves(void **state) { (void)state, scenes("waves", 0, 4); }
+static void morris(void **state) { (void)state, scenes("morris", MORRIS, 2); }
+static void mcg(void **state) { (void)state, scenes("mcg", MCG, 2); }
+static void conduction(void **state) { (void)state, scenes("conduction", CONDUCTION, 2); }
 /* Where waves are as fast as what is damped, both bounds are added. */
 static void others(void **state)
 {
   (void)state;
-  for (int k = 0; k < 3; k++) check("artificial", ARTIFICIAL, k, 4);
-  for (int k = 0; k < 3; k++) check("diffusion", MOLTENI, k, 4);
-  for (int k = 0; k < 3; k++) check("drag", DRAG, k, 3);
-  for (int k = 0; k < 3; k++) check("all", MORRIS | ARTIFICIAL | CONDUCTION | MOLTENI, k, 3);
+  scenes("artificial", ARTIFICIAL, 5); /* half of all pairs approach, at most */
+  scenes("diffusion", MOLTENI, 4);
+  scenes("drag", DRAG, 3);
+  scenes("all", MORRIS | ARTIFICIAL | CONDUCTION | MOLTENI, 3);
 }
 
 int main(void)
