@@ -10,7 +10,9 @@
  * g: the acceleration by these forces.  With the total energy per mass for u, v^2/2 is in it. */
 #include "sim_relax.h"
 
+#include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "sim_rhs.h"
 
@@ -21,68 +23,80 @@ static int total(const sph_group *group)
   return sph_group_data_energy(group) == SPH_TOTAL_ENERGY;
 }
 
-/* Rounding is the limit of relaxation: sums with what it loses (Kahan 1965). */
-typedef struct sum {
-  double value, lost;
-} sum;
+/* What the energy differs by between two states; magnitudes of what it consists of; their squares,
+ * particle by particle; sum m |v - v0|^2/2, with which the change is quadratic. */
+enum { CHANGE, PARTS, SQUARES, MOTION, SUMS };
 
-static void add(sum *s, double x)
-{
-  double y = x - s->lost, t = s->value + y;
-  s->lost = (t - s->value) - y;
-  s->value = t;
-}
-
-/* The energy of particle i; *parts grows by the magnitudes of what that consists of. */
-static double energy_of(const sph_sim *sim, const sph_group *group, const sph_view *view, long i,
-                        double *parts)
+/* Differences particle by particle: of E itself steps change the last digits only. */
+static void add_particle(const sph_sim *sim, const sph_group *group, const sph_view *from,
+                         const sph_view *to, long i, double sum[SUMS])
 {
   const int elastic = !group->eos.thermal && group->eos.elastic_energy;
-  double x[3] = {0}, v2 = 0, u = view->energy ? view->energy[i] : 0;
+  double x0[3] = {0}, x[3] = {0}, v2 = 0, grown = 0, moved = 0;
   for (int d = 0; d < sim->dim; d++) {
-    x[d] = view->x[d][i];
-    v2 += view->v[d][i] * view->v[d][i];
+    const double v = to->v[d][i], v0 = from->v[d][i];
+    x0[d] = from->x[d][i];
+    x[d] = to->x[d][i];
+    v2 += v * v;
+    grown += (v - v0) * (v + v0);
+    moved += (v - v0) * (v - v0);
   }
-  if (elastic) u += group->eos.elastic_energy(&group->eos, view->rho[i]);
-  const double m = view->m[i], kinetic = total(group) ? 0 : m * v2 / 2;
-  const double potential = m * sph_term_set_potential(&sim->terms, x);
-  *parts += kinetic + fabs(m * u) + fabs(potential);
-  return kinetic + m * u + potential;
+  if (total(group)) v2 = grown = moved = 0;
+  const double potential = sph_term_set_potential(&sim->terms, x);
+  double parts = v2 / 2 + fabs(potential);
+  double change = grown / 2 + potential - sph_term_set_potential(&sim->terms, x0);
+  if (to->energy) parts += fabs(to->energy[i]), change += to->energy[i] - from->energy[i];
+  if (elastic) {
+    const double e = group->eos.elastic_energy(&group->eos, to->rho[i]);
+    parts += fabs(e) + fabs(to->p[i]) / to->rho[i]; /* what rounding of rho makes of it; p: near */
+    change += e - group->eos.elastic_energy(&group->eos, from->rho[i]);
+  }
+  const double m = to->m[i];
+  sum[CHANGE] += m * change;
+  sum[PARTS] += m * parts;
+  sum[SQUARES] += m * parts * m * parts;
+  sum[MOTION] += m * moved / 2;
 }
 
-/* Chunks of particles, added in order: to the energy, and to the magnitudes. */
-static void add_group(const sph_sim *sim, const sph_group *group, const sph_view *view, sum *energy,
-                      double *parts)
+/* Chunks of particles, added in order. */
+static void add_group(const sph_sim *sim, const sph_group *group, const sph_view *from,
+                      const sph_view *to, double all[SUMS])
 {
-  const long chunks = (view->n + CHUNK - 1) / CHUNK;
+  const long n = to->n, chunks = (n + CHUNK - 1) / CHUNK;
   double *part = sim->sorted[group->index].sum[0]; /* free between evaluations */
-#pragma omp parallel for num_threads(sim->threads) schedule(static) if (view->n > PARALLEL_MIN)
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
   for (long k = 0; k < chunks; k++) {
-    const long end = (k + 1) * CHUNK < view->n ? (k + 1) * CHUNK : view->n;
-    sum own = {0, 0};
-    double magnitudes = 0;
-    for (long i = k * CHUNK; i < end; i++) add(&own, energy_of(sim, group, view, i, &magnitudes));
-    part[2 * k] = own.value;
-    part[2 * k + 1] = magnitudes;
+    const long end = (k + 1) * CHUNK < n ? (k + 1) * CHUNK : n;
+    double own[SUMS] = {0};
+    for (long i = k * CHUNK; i < end; i++) add_particle(sim, group, from, to, i, own);
+    memcpy(part + SUMS * k, own, sizeof own);
   }
-  for (long k = 0; k < chunks; k++) {
-    add(energy, part[2 * k]);
-    *parts += part[2 * k + 1];
-  }
+  for (long k = 0; k < SUMS * chunks; k++) all[k % SUMS] += part[k];
 }
 
-int sph_sim_relax_energy(N_Vector y, double *energy, double *parts, void *ctx)
+/* What is left of E by rounding: that of particles is independent, as a rule, and adds up as the
+ * root of squares.  Where the step hardly moves anything, all may round alike, and no change of the
+ * step's length would mend that: then the sum. */
+static double rounding_of(const double sum[SUMS])
+{
+  const double at_worst = 4 * DBL_EPSILON * sum[PARTS];
+  return sum[MOTION] > 1e3 * at_worst ? DBL_EPSILON * sqrt(sum[SQUARES]) : at_worst;
+}
+
+int sph_sim_relax_energy(N_Vector y0, N_Vector y, double *change, double *rounding, void *ctx)
 {
   const sph_sim *sim = ctx;
-  sum all = {0, 0};
-  *parts = 0;
+  double all[SUMS] = {0};
   for (int g = 0; g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
-    const sph_view view = sph_group_data_view(group, sph_nvector_data(y), NULL);
-    if (!group->wall) add_group(sim, group, &view, &all, parts);
+    if (group->wall) continue;
+    const sph_view from = sph_group_data_view(group, sph_nvector_data(y0), NULL);
+    const sph_view to = sph_group_data_view(group, sph_nvector_data(y), NULL);
+    add_group(sim, group, &from, &to, all);
   }
-  *energy = all.value;
-  return *parts < INFINITY ? SPH_OK : SPH_RETRY;
+  *change = all[CHANGE];
+  *rounding = rounding_of(all);
+  return all[PARTS] < INFINITY && isfinite(all[CHANGE]) ? SPH_OK : SPH_RETRY;
 }
 
 /* The acceleration by forces with a potential, for particles that do not move, into dx. */

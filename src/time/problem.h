@@ -55,9 +55,9 @@ typedef struct sph_problem {
   int (*solve)(sph_stage *stage, void *ctx);
   /* A bound of the largest |eigenvalue| of df/dy at (t, y) [1/s], for stabilised schemes. */
   int (*dominant)(double t, N_Vector y, double *lambda, void *ctx);
-  /* A quantity that f conserves, the sum of the magnitudes of its parts, and its derivative with
-   * respect to y, for relaxation. */
-  int (*energy)(N_Vector y, double *energy, double *parts, void *ctx);
+  /* A quantity that f conserves, for relaxation: how much it is more at y than at y0, and how much
+   * of that may be rounding; and its derivative with respect to y. */
+  int (*energy)(N_Vector y0, N_Vector y, double *change, double *rounding, void *ctx);
   int (*energy_gradient)(N_Vector y, N_Vector gradient, void *ctx);
   sph_error *error; /* where failures are recorded; borrowed */
 } sph_problem;

@@ -50,20 +50,20 @@ int sph_relax_check(const sph_integrator_def *def, const sph_integrator_info *in
 
 #if SPH_SUNDIALS_NUMBER >= SINCE
 
-/* Newton's method ends with a residual of this much of what the energy consists of, or behind a
- * change of gamma after which there is nothing left but rounding. */
-static const double RESIDUAL = 4 * DBL_EPSILON, CHANGE = 1e-9;
+/* Newton's method ends with a residual that may be rounding, or behind a change of gamma after which
+ * there is nothing else left. */
+static const double CHANGE = 1e-9;
 
+/* ARKODE needs E only up to a constant: here that of the start of the step. */
 static int energy(N_Vector y, sunrealtype *e, void *data)
 {
   sph_integrator *it = data;
   sph_integrator_arkode *own = it->own;
-  double parts = 0;
+  double rounding = 0;
   if (sph_nvector_lost(y)) return it->rhs_status = SPH_ERR_MEMORY;
-  int status = it->problem.energy(y, e, &parts, it->problem.ctx);
+  int status = it->problem.energy(it->before, y, e, &rounding, it->problem.ctx);
   if (status < 0) it->rhs_status = status;
-  return status ? status
-                : own->call->set_relax_res_tol(own->memory, fmax(DBL_MIN, RESIDUAL * parts));
+  return status ? status : own->call->set_relax_res_tol(own->memory, fmax(DBL_MIN, rounding));
 }
 
 static int gradient(N_Vector y, N_Vector slope, void *data)
