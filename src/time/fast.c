@@ -61,7 +61,7 @@ int sph_fast_check(const sph_integrator_def *def, int has_fast, sph_error *error
                          def->fast_tolerance);
   if (!name) return SPH_OK;
   int row = sph_integrator_table_find(name, error);
-  if (row < 0) return SPH_ERR_ARGUMENT;
+  if (row < 0) return row;
   if (strncmp(name, "erk:", 4))
     return sph_error_set(error, SPH_ERR_ARGUMENT,
                          "integrator: fast_method = \"%.60s\"; right is "

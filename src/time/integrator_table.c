@@ -27,11 +27,19 @@ enum { OWN = sizeof own / sizeof *own };
 static const struct {
   const char *name;
   double stability;
+  int needs;
 } erk[] = {
-#define X(name, stability) {"erk:" name, stability},
+#define X(name, stability, needs) {"erk:" name, stability, needs},
 #include "integrator_table.def"
 #undef X
 };
+enum { ERK = sizeof erk / sizeof *erk };
+
+#if SPH_SUNDIALS_NUMBER >= 60600
+#define ARK2 ARKODE_ARK2_ERK_3_1_2, ARKODE_ARK2_DIRK_3_1_2
+#else /* only to be told of */
+#define ARK2 ARKODE_ERK_NONE, ARKODE_DIRK_NONE
+#endif
 
 /* Pairs of one explicit and one implicit table of the same nodes and weights: Kennedy & Carpenter
  * (2003, 2019), and Giraldo, Kelly & Constantinescu (2013). */
@@ -39,15 +47,14 @@ static const struct {
   const char *name;
   ARKODE_ERKTableID explicit;
   ARKODE_DIRKTableID implicit;
+  int needs;
 } imex[] = {
-    {"imex:ark324l2sa-4-2-3", ARKODE_ARK324L2SA_ERK_4_2_3, ARKODE_ARK324L2SA_DIRK_4_2_3},
-    {"imex:ark436l2sa-6-3-4", ARKODE_ARK436L2SA_ERK_6_3_4, ARKODE_ARK436L2SA_DIRK_6_3_4},
-    {"imex:ark437l2sa-7-3-4", ARKODE_ARK437L2SA_ERK_7_3_4, ARKODE_ARK437L2SA_DIRK_7_3_4},
-    {"imex:ark548l2sa-8-4-5", ARKODE_ARK548L2SA_ERK_8_4_5, ARKODE_ARK548L2SA_DIRK_8_4_5},
-    {"imex:ark548l2sab-8-4-5", ARKODE_ARK548L2SAb_ERK_8_4_5, ARKODE_ARK548L2SAb_DIRK_8_4_5},
-#if SPH_SUNDIALS_NUMBER >= 60600
-    {"imex:ark2-3-1-2", ARKODE_ARK2_ERK_3_1_2, ARKODE_ARK2_DIRK_3_1_2},
-#endif
+    {"imex:ark324l2sa-4-2-3", ARKODE_ARK324L2SA_ERK_4_2_3, ARKODE_ARK324L2SA_DIRK_4_2_3, 60401},
+    {"imex:ark436l2sa-6-3-4", ARKODE_ARK436L2SA_ERK_6_3_4, ARKODE_ARK436L2SA_DIRK_6_3_4, 60401},
+    {"imex:ark437l2sa-7-3-4", ARKODE_ARK437L2SA_ERK_7_3_4, ARKODE_ARK437L2SA_DIRK_7_3_4, 60401},
+    {"imex:ark548l2sa-8-4-5", ARKODE_ARK548L2SA_ERK_8_4_5, ARKODE_ARK548L2SA_DIRK_8_4_5, 60401},
+    {"imex:ark548l2sab-8-4-5", ARKODE_ARK548L2SAb_ERK_8_4_5, ARKODE_ARK548L2SAb_DIRK_8_4_5, 60401},
+    {"imex:ark2-3-1-2", ARK2, 60600},
 };
 enum { IMEX = sizeof imex / sizeof *imex };
 
@@ -59,11 +66,11 @@ static int own_info(int k, sph_integrator_info *info)
   return 1;
 }
 
-/* Those that this SUNDIALS has. */
-static const char *erk_name(int k)
+static const char *erk_known(int k, int *needs)
 {
-  int listed = sizeof erk / sizeof *erk, built = ARKODE_MAX_ERK_NUM + 1;
-  return k < listed && k < built ? erk[k].name : NULL;
+  if (k >= ERK) return NULL;
+  *needs = erk[k].needs;
+  return erk[k].name;
 }
 
 static ARKodeButcherTable erk_table(int k)
@@ -92,7 +99,12 @@ static int rdpk_info(int k, sph_integrator_info *info)
   return butcher_info(sph_integrator_rdpk_table(k), sph_integrator_rdpk_stability(k), info);
 }
 
-static const char *imex_name(int k) { return k < IMEX ? imex[k].name : NULL; }
+static const char *imex_known(int k, int *needs)
+{
+  if (k >= IMEX) return NULL;
+  *needs = imex[k].needs;
+  return imex[k].name;
+}
 
 static int imex_info(int k, sph_integrator_info *info)
 {
@@ -111,9 +123,9 @@ typedef struct family {
 
 static const family families[] = {
     {own_name, own_info, &sph_ode_stepper, NULL},
-    {erk_name, erk_info, &sph_integrator_erk, NULL},
+    {NULL, erk_info, &sph_integrator_erk, erk_known},
     {sph_integrator_rdpk_name, rdpk_info, &sph_integrator_erk, NULL},
-    {imex_name, imex_info, &sph_integrator_imex, NULL},
+    {NULL, imex_info, &sph_integrator_imex, imex_known},
     {NULL, sph_integrator_mri_info, &sph_integrator_mri, sph_integrator_mri_known},
     {NULL, sph_integrator_sprk_info, &sph_integrator_sprk, sph_integrator_sprk_known},
     {NULL, sph_integrator_lsrk_info, &sph_integrator_lsrk, sph_integrator_lsrk_known},
@@ -161,7 +173,7 @@ ARKodeButcherTable sph_integrator_table_butcher(int k)
 {
   const family *f = family_of(&k);
   if (!f) return NULL;
-  if (f->name == erk_name) return erk_table(k);
+  if (f->info == erk_info) return erk_table(k);
   return f->info == rdpk_info ? sph_integrator_rdpk_table(k) : NULL;
 }
 
@@ -169,7 +181,7 @@ int sph_integrator_table_pair(int k, ARKodeButcherTable pair[2])
 {
   const family *f = family_of(&k);
   pair[0] = pair[1] = NULL;
-  if (!f || f->name != imex_name) return 0;
+  if (!f || f->info != imex_info) return 0;
   pair[0] = ARKodeButcherTable_LoadERK(imex[k].explicit);
   pair[1] = ARKodeButcherTable_LoadDIRK(imex[k].implicit);
   if (pair[0] && pair[1]) return 1;

@@ -20,6 +20,7 @@ typedef struct two {
   long fail_slow, fail_fast; /* number of the one that fails, and ... */
   int failures;              /* how many do */
   double fast_limit;         /* > 0 [s] */
+  int last;                  /* piece that was evaluated last, but the fast one; -1: all of f */
 } two;
 
 static const double COUPLING = 0.5, SLOW_RATE = 10; /* [1] and [1/s] */
@@ -86,6 +87,7 @@ static int rhs_piece(int piece, double t, N_Vector y, N_Vector ydot, void *ctx)
 {
   two *w = ctx;
   long *calls = piece == SPH_PIECE_FAST ? &w->fast : &w->slow;
+  if (piece != SPH_PIECE_FAST) w->last = piece;
   long number = (*calls)++, from = piece == SPH_PIECE_FAST ? w->fail_fast : w->fail_slow;
   if (from && number >= from && number < from + w->failures) return SPH_RETRY;
   return parts_now(piece, t, y, ydot, ctx);
@@ -93,6 +95,7 @@ static int rhs_piece(int piece, double t, N_Vector y, N_Vector ydot, void *ctx)
 
 static int rhs(double t, N_Vector y, N_Vector ydot, void *ctx)
 {
+  ((two *)ctx)->last = -1;
   return parts_now(-1, t, y, ydot, ctx);
 }
 
@@ -281,6 +284,32 @@ static void slow_steps_obey_limits_of_the_slow_part(void **state)
   ode_end(&w.o);
 }
 
+/* All of f would limit steps to a thousandth, as waves in the fast part do. */
+static int limits_of_the_last(double t, N_Vector y, sph_step_limit *limit, void *ctx)
+{
+  const two *w = ctx;
+  (void)t, (void)y;
+  limit->dt[SPH_BOUND_CFL] = w->last == SPH_PIECE_EXPLICIT ? 0.02 : 2e-5;
+  return SPH_OK;
+}
+
+static void first_steps_obey_no_others(void **state)
+{
+  (void)state;
+  two w;
+  make(&w, source, 2);
+  w.o.problem.limits = limits_of_the_last;
+  ode_start(&w.o, &(sph_integrator_def){.method = "mri:kw3", .cfl = 0.5, .fast_step = 0.01});
+  for (int start = 0; start < 3; start++) {
+    if (ode_run(&w.o, start + 1)) fail_msg("%s", w.o.error.text);
+    assert_int_equal(sph_integrator_reset(w.o.it, start + 1), SPH_OK);
+  }
+  const sph_step_stats *stats = sph_integrator_stats(w.o.it);
+  if (!(fabs(stats->dt_smallest / (0.5 * 1.98 * 0.02) - 1) < 1e-9))
+    fail_msg("a step of %g", stats->dt_smallest);
+  ode_end(&w.o);
+}
+
 static void stop_times_are_exact(void **state)
 {
   (void)state;
@@ -462,6 +491,20 @@ static void misuse_is_refused_with_a_reason(void **state)
   ode_end(&o);
 }
 
+/* By the headers of the releases 6.5.1 to 7.3.0. */
+static const char *first_with(const char *name)
+{
+  static const struct {
+    const char *part, *version;
+  } row[] = {{"lsrk:", "7.2"},          {":merk", "7.2"},         {"sprk:", "6.6"},
+             {"mri:", "7.1"},           {":ark2-", "6.6"},        {"tsitouras", "7.3"},
+             {"ralston-3", "7.3"},      {"forward-euler", "7.1"}, {"ralston-euler", "7.1"},
+             {"midpoint-euler", "7.1"}, {"erk:", "6.7"}};
+  size_t k = 0;
+  while (k < sizeof row / sizeof *row - 1 && !strstr(name, row[k].part)) k++;
+  return row[k].version;
+}
+
 static void what_a_newer_sundials_has_is_told(void **state)
 {
   sph_integrator_missing missing;
@@ -470,13 +513,9 @@ static void what_a_newer_sundials_has_is_told(void **state)
   (void)state;
   for (; sph_integrator_missing_get(k, &missing); k++) {
     sph_error error = {0};
-    int lsrk = !strncmp(missing.name, "lsrk:", 5), sprk = !strncmp(missing.name, "sprk:", 5);
     char text[80];
     snprintf(text, sizeof text, "needs SUNDIALS %s or later; this library has %s",
-             lsrk || strstr(missing.name, ":merk") ? "7.2"
-             : sprk                                ? "6.6"
-                                                   : "7.1",
-             SUNDIALS_VERSION);
+             first_with(missing.name), SUNDIALS_VERSION);
     assert_int_equal(sph_integrator_check(&(sph_integrator_def){.method = missing.name}, &error),
                      SPH_ERR_UNBUILT);
     if (!strstr(error.text, text)) fail_msg("\"%s\" lacks \"%s\"", error.text, text);
@@ -484,7 +523,7 @@ static void what_a_newer_sundials_has_is_told(void **state)
       assert_true(strcmp(info.name, missing.name));
   }
   assert_int_equal(sph_integrator_missing_get(-1, &missing), 0);
-  assert_int_equal(k > 0, SPH_SUNDIALS_NUMBER < 70200);
+  assert_int_equal(k > 0, SPH_SUNDIALS_NUMBER < 70300);
   sph_error error = {0}; /* a name that none of a kind has, before there is any */
   assert_int_equal(sph_integrator_check(&(sph_integrator_def){.method = "lsrk:rkc"}, &error),
                    SPH_SUNDIALS_NUMBER < 70200 ? SPH_ERR_UNBUILT : SPH_ERR_ARGUMENT);
@@ -498,6 +537,7 @@ int main(void)
       cmocka_unit_test(fast_errors_are_held),
       cmocka_unit_test(stiff_sources_do_not_bind_slow_steps),
       cmocka_unit_test(slow_steps_obey_limits_of_the_slow_part),
+      cmocka_unit_test(first_steps_obey_no_others),
       cmocka_unit_test(stop_times_are_exact),
       cmocka_unit_test(dense_output_keeps_the_order),
       cmocka_unit_test(failed_evaluations_are_repeated),
