@@ -129,10 +129,10 @@ static int integrator_row(int k, row *r)
   snprintf(r->detail[2], sizeof r->detail[2], "%s", info.error_control ? "yes" : "no");
   snprintf(r->detail[3], sizeof r->detail[3], "%.3g", info.stability);
   snprintf(r->detail[4], sizeof r->detail[4], "%s",
-           info.wants & SPH_WANTS_IMPLICIT    ? "implicit part"
-           : info.wants & SPH_WANTS_FAST      ? "fast part"
-           : info.wants & SPH_WANTS_SEPARABLE ? "separable f"
-           : info.wants & SPH_WANTS_DOMINANT  ? "eigenvalue bound"
+           info.wants & SPH_WANTS_IMPLICIT    ? "implicit"
+           : info.wants & SPH_WANTS_FAST      ? "fast"
+           : info.wants & SPH_WANTS_SEPARABLE ? "separable"
+           : info.wants & SPH_WANTS_DOMINANT  ? "eigenvalue"
                                               : "none");
   snprintf(r->detail[5], sizeof r->detail[5], "yes");
   return 1;

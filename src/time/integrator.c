@@ -75,6 +75,27 @@ static int look_up(const sph_integrator_def *def, int *row, sph_integrator_info 
   return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: table of %s", def->method);
 }
 
+/* A tolerance and a controller need an error estimate. */
+static int check_estimate(const sph_integrator_def *def, const sph_integrator_info *info,
+                          sph_error *error)
+{
+  const int late = (info->wants & SPH_WANTS_FAST) && SPH_SUNDIALS_NUMBER < 70200;
+  const char *why =
+      late ? " (mri: from SUNDIALS 7.2 on; this library has " SUNDIALS_VERSION ")" : "";
+  if (info->error_control) return SPH_OK;
+  if (def->tolerance > 0)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "integrator: tolerance = %g, but %s has no error estimate%s; right is "
+                         "none (0)",
+                         def->tolerance, info->name, why);
+  if (def->controller)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "integrator: controller \"%.40s\", but %s has no error estimate%s; right "
+                         "is none (NULL)",
+                         def->controller, info->name, why);
+  return SPH_OK;
+}
+
 int sph_integrator_check(const sph_integrator_def *def, sph_error *error)
 {
   sph_integrator_info info = {0};
@@ -92,15 +113,7 @@ int sph_integrator_check(const sph_integrator_def *def, sph_error *error)
   if (!status)
     status = check_value("stage_tolerance", def->stage_tolerance, "0 (default) or more",
                          def->stage_tolerance >= 0, error);
-  if (!status && def->tolerance > 0 && !info.error_control)
-    status = sph_error_set(error, SPH_ERR_ARGUMENT,
-                           "integrator: tolerance = %g, but %s has no error estimate; right is 0",
-                           def->tolerance, info.name);
-  if (!status && def->controller && !info.error_control)
-    status = sph_error_set(error, SPH_ERR_ARGUMENT,
-                           "integrator: controller \"%.40s\", but %s has no error estimate; right "
-                           "is none (NULL)",
-                           def->controller, info.name);
+  if (!status) status = check_estimate(def, &info, error);
   if (!status && def->controller && !sph_controller_find(def->controller, error))
     status = SPH_ERR_ARGUMENT;
   if (!status) status = sph_fast_check(def, info.wants & SPH_WANTS_FAST, error);

@@ -138,10 +138,16 @@ int sph_integrator_arkode_reject(sph_integrator *it)
 }
 
 /* ARKODE took a copy of y when it was created: it is told of the y there is now.  The problem's
- * limits need rates at (time, y); `before` is free at that moment. */
+ * limits need rates at (time, y): of slow steps those of the slow part, of implicit ones all, since
+ * what is stiff may start with a layer that the first step is to see.  `before` is free at that
+ * moment. */
 int sph_integrator_arkode_start(sph_integrator *it)
 {
-  int status = it->problem.limits ? sph_integrator_rhs(it, it->time, it->y, it->before) : SPH_OK;
+  int status = SPH_OK;
+  if (it->problem.limits && (it->info.wants & SPH_WANTS_FAST))
+    status = sph_integrator_piece(it, SPH_PIECE_EXPLICIT, it->time, it->y, it->before);
+  else if (it->problem.limits)
+    status = sph_integrator_rhs(it, it->time, it->y, it->before);
   return status ? status : sph_integrator_arkode_reject(it);
 }
 

@@ -465,6 +465,9 @@ static void misuse_is_refused_with_a_reason(void **state)
       {{.method = "mri:kw3", .fast_method = "erk:bogacki"}, "the nearest is"},
       {{.method = "mri:kw3", .fast_method = "erk:knoth-wolke-3-3", .fast_tolerance = 1e-3},
        "no error estimate"},
+      {{.method = "mri:kw3", .tolerance = 1e-3},
+       SPH_SUNDIALS_NUMBER < 70200 ? "mri: from SUNDIALS 7.2 on; this library has"
+                                   : "no error estimate; right is none (0)"},
       {{.method = "mri:kw", .fast_step = 1}, "nearest is \"mri:kw3\""},
       {{.fast_step = 1}, "no fast part"},
       {{.method = "leapfrog", .fast_method = "erk:zonneveld-5-3-4"}, "no fast part"},
