@@ -1,7 +1,7 @@
 /* Step limits of one evaluation against docs/theory.md, Step limits, written again:
  *
- *   liquids   min_i h'/(c_i (1 + 0.6 alpha) + |v_i|)
- *   gases     h'/[max_i (c_i (1 + 0.6 alpha) + |v_i|) + (1 + 1.2 beta) max_i |v_i|]
+ *   liquids   min_i h'/(c_i s + |v_i|),  s = max(1 + 0.6 alpha, 5.5 delta)
+ *   gases     h'/[max_i (c_i s + |v_i|) + (1 + 1.2 beta) max_i |v_i|]
  *   force     0.25 sqrt(h/max_i |a_i|)
  *   viscous   0.125 h^2 min_i rho_i/eta, with mcg a third
  *   heat      0.125 h^2 min_i rho_i c_v/kappa
@@ -40,10 +40,10 @@ static double deviation(int dim, int kernel)
 }
 
 typedef struct fluid {
-  double speed, v, a, rho; /* max of c (1 + 0.6 alpha) + |v|, of |v|, of |a|; min of rho */
+  double speed, v, a, rho; /* max of c s + |v|, of |v|, of |a|; min of rho */
 } fluid;
 
-static fluid look(const scene *s, const scene_rates *r, int g, double damping)
+static fluid look(const scene *s, const scene_rates *r, int g, double signal)
 {
   fluid it = {.rho = INFINITY};
   for (long i = 0; i < s->o.n; i++) {
@@ -54,7 +54,7 @@ static fluid look(const scene *s, const scene_rates *r, int g, double damping)
       v2 += (double)(p->v[k] * p->v[k]);
       a2 += r->a[k][i] * r->a[k][i];
     }
-    it.speed = fmax(it.speed, r->c[i] * damping + sqrt(v2));
+    it.speed = fmax(it.speed, r->c[i] * signal + sqrt(v2));
     it.v = fmax(it.v, sqrt(v2)), it.a = fmax(it.a, sqrt(a2));
     it.rho = fmin(it.rho, (double)p->rho);
   }
@@ -77,7 +77,7 @@ static limits expected(const scene *s, const scene_rates *r)
   double eta = fmax((double)group[0].viscosity, (double)group[1].viscosity);
   limits it = {INFINITY, INFINITY, INFINITY, INFINITY};
   for (int g = 0; g < 2; g++) {
-    fluid f = look(s, r, g, 1 + 0.6 * alpha);
+    fluid f = look(s, r, g, fmax(1 + 0.6 * alpha, o->diffusion ? 5.5 * (double)o->delta : 0));
     double speed = f.speed + (s->thermal ? (1 + 1.2 * beta) * f.v : 0);
     it.cfl = fmin(it.cfl, sound / speed);
     it.force = fmin(it.force, 0.25 * sqrt(h / f.a));
@@ -118,6 +118,7 @@ static void state_of(scene *s, int k, int thermal)
   if (k / 2 % 2) o->signal_alpha = k % 5 < 2 ? 0.25 : 1, o->signal_beta = 3;
   o->laminar = k % 5 == 0 ? ORACLE_INVISCID : k % 5 < 3 ? ORACLE_MORRIS : ORACLE_MCG;
   o->conduction = k % 3 > 0;
+  if (!thermal && k % 4 == 2) o->diffusion = ORACLE_MOLTENI, o->delta = k % 8 == 2 ? 0.1L : 1;
   if (k / 4 % 2) o->group[0].viscosity = 7, o->group[0].conductivity = 90;
   o->group[2].viscosity = 50; /* a wall's counts for nothing */
 }
