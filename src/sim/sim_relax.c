@@ -27,35 +27,74 @@ static int total(const sph_group *group)
  * particle by particle; sum m |v - v0|^2/2, with which the change is quadratic. */
 enum { CHANGE, PARTS, SQUARES, MOTION, SUMS };
 
-/* Differences particle by particle: of E itself steps change the last digits only. */
-static void add_particle(const sph_sim *sim, const sph_group *group, const sph_view *from,
-                         const sph_view *to, long i, double sum[SUMS])
+/* Of particles [begin, end), at most CHUNK: differences particle by particle, since of E itself steps
+ * change the last digits only. */
+typedef struct chunk {
+  double change[CHUNK], parts[CHUNK], moved[CHUNK]; /* per mass */
+} chunk;
+
+static void add_motion(const double *v0, const double *v, long n, chunk *c)
 {
-  const int elastic = !group->eos.thermal && group->eos.elastic_energy;
-  double x0[3] = {0}, x[3] = {0}, v2 = 0, grown = 0, moved = 0;
-  for (int d = 0; d < sim->dim; d++) {
-    const double v = to->v[d][i], v0 = from->v[d][i];
-    x0[d] = from->x[d][i];
-    x[d] = to->x[d][i];
-    v2 += v * v;
-    grown += (v - v0) * (v + v0);
-    moved += (v - v0) * (v - v0);
+  for (long i = 0; i < n; i++) {
+    const double step = v[i] - v0[i];
+    c->change[i] += step * (v[i] + v0[i]) / 2;
+    c->parts[i] += v[i] * v[i] / 2;
+    c->moved[i] += step * step / 2;
   }
-  if (total(group)) v2 = grown = moved = 0;
-  const double potential = sph_term_set_potential(&sim->terms, x);
-  double parts = v2 / 2 + fabs(potential);
-  double change = grown / 2 + potential - sph_term_set_potential(&sim->terms, x0);
-  if (to->energy) parts += fabs(to->energy[i]), change += to->energy[i] - from->energy[i];
-  if (elastic) {
-    const double e = group->eos.elastic_energy(&group->eos, to->rho[i]);
-    parts += fabs(e) + fabs(to->p[i]) / to->rho[i]; /* what rounding of rho makes of it; p: near */
-    change += e - group->eos.elastic_energy(&group->eos, from->rho[i]);
+}
+
+static void add_internal(const double *u0, const double *u, long n, chunk *c)
+{
+  for (long i = 0; i < n; i++) {
+    c->change[i] += u[i] - u0[i];
+    c->parts[i] += fabs(u[i]);
   }
-  const double m = to->m[i];
-  sum[CHANGE] += m * change;
-  sum[PARTS] += m * parts;
-  sum[SQUARES] += m * parts * m * parts;
-  sum[MOTION] += m * moved / 2;
+}
+
+/* p/rho is what rounding of rho makes of it; p may be that of a state nearby. */
+static void add_elastic(const sph_eos *eos, const double *rho0, const double *rho, const double *p,
+                        long n, chunk *c)
+{
+  for (long i = 0; i < n; i++) {
+    const double e = eos->elastic_energy(eos, rho[i]);
+    c->change[i] += e - eos->elastic_energy(eos, rho0[i]);
+    c->parts[i] += fabs(e) + fabs(p[i]) / rho[i];
+  }
+}
+
+static void add_potential(const sph_sim *sim, const sph_view *from, const sph_view *to, long begin,
+                          long n, chunk *c)
+{
+  for (long i = 0; i < n; i++) {
+    double x0[3] = {0}, x[3] = {0};
+    for (int d = 0; d < sim->dim; d++) {
+      x0[d] = from->x[d][begin + i];
+      x[d] = to->x[d][begin + i];
+    }
+    const double potential = sph_term_set_potential(&sim->terms, x);
+    c->change[i] += potential - sph_term_set_potential(&sim->terms, x0);
+    c->parts[i] += fabs(potential);
+  }
+}
+
+static void add_chunk(const sph_sim *sim, const sph_group *group, const sph_view *from,
+                      const sph_view *to, long begin, long end, double sum[SUMS])
+{
+  const long n = end - begin;
+  const double *m = to->m + begin;
+  chunk c = {{0}, {0}, {0}};
+  for (int d = 0; d < sim->dim && !total(group); d++)
+    add_motion(from->v[d] + begin, to->v[d] + begin, n, &c);
+  if (to->energy) add_internal(from->energy + begin, to->energy + begin, n, &c);
+  if (!group->eos.thermal && group->eos.elastic_energy)
+    add_elastic(&group->eos, from->rho + begin, to->rho + begin, to->p + begin, n, &c);
+  if (sim->terms.uniform || sim->terms.called > 0) add_potential(sim, from, to, begin, n, &c);
+  for (long i = 0; i < n; i++) {
+    sum[CHANGE] += m[i] * c.change[i];
+    sum[PARTS] += m[i] * c.parts[i];
+    sum[SQUARES] += m[i] * c.parts[i] * m[i] * c.parts[i];
+    sum[MOTION] += m[i] * c.moved[i];
+  }
 }
 
 /* Chunks of particles, added in order. */
@@ -68,7 +107,7 @@ static void add_group(const sph_sim *sim, const sph_group *group, const sph_view
   for (long k = 0; k < chunks; k++) {
     const long end = (k + 1) * CHUNK < n ? (k + 1) * CHUNK : n;
     double own[SUMS] = {0};
-    for (long i = k * CHUNK; i < end; i++) add_particle(sim, group, from, to, i, own);
+    add_chunk(sim, group, from, to, k * CHUNK, end, own);
     memcpy(part + SUMS * k, own, sizeof own);
   }
   for (long k = 0; k < SUMS * chunks; k++) all[k % SUMS] += part[k];
