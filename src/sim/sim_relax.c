@@ -27,8 +27,8 @@ static int total(const sph_group *group)
  * particle by particle; sum m |v - v0|^2/2, with which the change is quadratic. */
 enum { CHANGE, PARTS, SQUARES, MOTION, SUMS };
 
-/* Of particles [begin, end), at most CHUNK: differences particle by particle, since of E itself steps
- * change the last digits only. */
+/* Of some particles: differences one by one, since of E itself steps change the last digits
+ * only. */
 typedef struct chunk {
   double change[CHUNK], parts[CHUNK], moved[CHUNK]; /* per mass */
 } chunk;

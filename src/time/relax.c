@@ -50,8 +50,8 @@ int sph_relax_check(const sph_integrator_def *def, const sph_integrator_info *in
 
 #if SPH_SUNDIALS_NUMBER >= SINCE
 
-/* Newton's method ends with a residual that may be rounding, or behind a change of gamma after which
- * there is nothing else left. */
+/* Newton's method ends with a residual that may be rounding, or behind a change of gamma after
+ * which there is nothing else left. */
 static const double CHANGE = 1e-9;
 
 /* ARKODE needs E only up to a constant: here that of the start of the step. */
