@@ -7,9 +7,9 @@
  * The adjoint is that of the scheme itself (Hager 2000; Sandu 2006): the gradient is that of the
  * numerical result, up to rounding, not an approximation of another one.
  *
- * A stage of a tangent costs about 12 right-hand sides for each parameter, a stage backwards about
- * 160 (2D) or 230 (3D) for all of them: for more than a dozen parameters, or the start, the adjoint
- * is cheaper than sphode/sensitivity.h. */
+ * A stage backwards costs about 180 right-hand sides (3D: 200), and for each parameter 2 to 11
+ * more: 3 for a number of yours that body terms read, 7 for a viscosity.  Each costs 13 in
+ * sphode/sensitivity.h: for more than 20 to 30 parameters, or the start, the adjoint is cheaper. */
 #ifndef SPHODE_ADJOINT_H
 #define SPHODE_ADJOINT_H
 #include "sphode/group.h"

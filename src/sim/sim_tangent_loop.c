@@ -18,12 +18,31 @@ fluid_constants sph_sim_tangent_loop_constants(const sph_tangent *tangent, int p
                                        sim->group[source]);
 }
 
+static int zeros(const double *a, long n)
+{
+  long i = 0;
+  while (i < n && a[i] == 0) i++;
+  return i == n;
+}
+
+/* Does nothing change that this loop reads, as along many parameters? */
+static int still(const sph_tangent *tangent, const fluid_constants *k_d, int target, int source)
+{
+  const int groups[] = {target, source};
+  int same = !tangent->s && zeros(&k_d->inverse_h, SPH_FLUID_NUMBERS);
+  for (int g = 0; same && g < 2; g++)
+    same = zeros(tangent->group[groups[g]].record_d,
+                 tangent->sim->group[groups[g]]->n * tangent->sim->sorted[groups[g]].stride);
+  return same;
+}
+
 void sph_sim_tangent_loop(sph_tangent *tangent, int pass, int target, int source)
 {
   sph_sim *sim = tangent->sim;
   const sph_list list = sph_neighbors_list(sim->neighbors, target, source);
   const fluid_constants k = sph_sim_tangent_loop_constants(tangent, pass, target, source);
   const fluid_constants k_d = sph_sim_tangent_call_constants(tangent, pass, target, source);
+  if (still(tangent, &k_d, target, source)) return; /* its derivative is zero */
   const sph_tangent_task task = {.target = sim->sorted[target].record,
                                  .target_d = tangent->group[target].record_d,
                                  .source = sim->sorted[source].record,
