@@ -66,6 +66,7 @@ int main(int argc, char **argv)
   if (!options.json) printf("sphode %s, isa %s, one thread\n", sph_version(), sph_sim_isa(sim));
   sph_sim_free(sim);
   bench_neighbors();
+  bench_operators();
   bench_rhs();
   bench_derivatives();
   bench_integration();

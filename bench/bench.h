@@ -14,6 +14,7 @@ int bench_quick(void); /* --quick: small sizes */
 
 void bench_neighbors(void);   /* sort and list build */
 void bench_rhs(void);         /* right-hand sides */
+void bench_operators(void);   /* operators on points */
 void bench_tiles(void);       /* registered pair terms against fused ones */
 void bench_stability(void);   /* stability limits of the integrators; with --filter only */
 void bench_imex(void);        /* implicit-explicit integrators; with --filter only */

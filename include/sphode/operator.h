@@ -129,6 +129,24 @@ SPH_API int sph_operator_grad_div(sph_operator *op, const double *const u[], dou
 SPH_API int sph_operator_mcg(sph_operator *op, const double *const u[], double *const out[],
                              sph_error *error);
 
+/* ---- where a body of points ends */
+
+enum sph_surface_state { SPH_INSIDE, SPH_SURFACE, SPH_ALONE };
+
+/* Name of method k = 0, 1, ..., or NULL behind the last:
+ *
+ *   "divergence"  div x = tr M_i under 0.75, 1.5, 2.4 in 1D, 2D, 3D (Lee et al. 2008)
+ *   "cone"        least eigenvalue of M_i: under 0.2 alone, over 0.75 inside; between, at the
+ *                 surface unless a neighbour stands in the cone around the normal (Marrone et al.
+ *                 2010) */
+SPH_API const char *sph_operator_surface_method(int k);
+/* state[n]: enum sph_surface_state ("divergence" tells no SPH_ALONE; "cone" also of the corner of a
+ * cube); measure[n]: the number that is compared; normal[dim][n]: outward, of length 1, along
+ * -M_i^-1 sum_j V_j grad_i W_ij (without M_i where it is singular), zero of a point alone; inside
+ * it means nothing.  measure, normal NULL: not wanted. */
+SPH_API int sph_operator_surface(sph_operator *op, const char *method, int *state, double *measure,
+                                 double *const normal[], sph_error *error);
+
 #ifdef __cplusplus
 }
 #endif
