@@ -1,10 +1,16 @@
 /* bench -- measures this build on this machine: bench [--json] [--quick] [--filter TEXT]
  *
+ * --json: a line a figure, {"name", "value", "unit", "spread", "ratio", "baseline"}, after one that
+ * tells of processor, instruction set, compiler and flags; bench/compare sets two of them side by
+ * side.  Spread: (largest - smallest)/median; ratio: to the figure `baseline` of the same run.
+ *
  * Rates are in million directed pairs inside the support per second of one core's CPU time; ratios
  * inside one run are worth more than any rate. */
 #define _POSIX_C_SOURCE 200809L
 #include "bench.h"
+#include "config.h"
 
+#include <math.h>
 #include <sphode.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,17 +41,62 @@ static int rising(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-void bench_report(const char *name, const char *unit, double *values, int n)
+static double median_of(double *values, int n)
 {
   qsort(values, (size_t)n, sizeof *values, rising);
-  double median = 0.5 * (values[(n - 1) / 2] + values[n / 2]);
-  double spread = median != 0 ? (values[n - 1] - values[0]) / median : 0;
-  if (options.json)
-    printf("{\"name\": \"%s\", \"value\": %.6g, \"unit\": \"%s\", \"spread\": %.3g}\n", name,
-           median, unit, spread);
-  else
-    printf("%-44s %12.4g %-10s +- %.0f %%\n", name, median, unit, 50 * spread);
+  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+void bench_report_over(const char *name, const char *unit, double *values, int n,
+                       const char *baseline, double *ratios)
+{
+  double median = median_of(values, n), ratio = ratios ? median_of(ratios, n) : 0;
+  double spread = median != 0 ? (values[n - 1] - values[0]) / fabs(median) : 0;
+  if (!options.json) {
+    printf("%-44s %12.4g %-10s +- %.0f %%", name, median, unit, 50 * spread);
+    if (ratios) printf("  %.3g of %s", ratio, baseline);
+    printf("\n");
+  } else {
+    printf("{\"name\": \"%s\", \"value\": %.6g, \"unit\": \"%s\", \"spread\": %.3g, ", name, median,
+           unit, spread);
+    if (ratios)
+      printf("\"ratio\": %.4g, \"baseline\": \"%s\"}\n", ratio, baseline);
+    else
+      printf("\"ratio\": null, \"baseline\": null}\n");
+  }
   fflush(stdout);
+}
+
+void bench_report(const char *name, const char *unit, double *values, int n)
+{
+  bench_report_over(name, unit, values, n, NULL, NULL);
+}
+
+/* The processor's name, "" where the system does not tell it. */
+static void processor(char *name, size_t size)
+{
+  char line[400];
+  FILE *file = fopen("/proc/cpuinfo", "r");
+  *name = 0;
+  while (file && !*name && fgets(line, sizeof line, file)) {
+    const char *colon = strchr(line, ':');
+    if (strncmp(line, "model name", 10) || !colon) continue;
+    snprintf(name, size, "%s", colon + 2);
+    name[strcspn(name, "\n\"\\")] = 0;
+  }
+  if (file) fclose(file);
+}
+
+static void introduce(void)
+{
+  char cpu[200];
+  processor(cpu, sizeof cpu);
+  sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 1});
+  printf(options.json ? "{\"sphode\": \"%s\", \"cpu\": \"%s\", \"isa\": \"%s\", \"threads\": 1, "
+                        "\"compiler\": \"%s %s\", \"flags\": \"%s\"}\n"
+                      : "sphode %s; %s, %s, one thread; %s %s %s\n",
+         sph_version(), cpu, sph_sim_isa(sim), SPH_COMPILER, __VERSION__, SPH_CFLAGS);
+  sph_sim_free(sim);
 }
 
 int main(int argc, char **argv)
@@ -62,9 +113,8 @@ int main(int argc, char **argv)
       return 2;
     }
   }
-  sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 1});
-  if (!options.json) printf("sphode %s, isa %s, one thread\n", sph_version(), sph_sim_isa(sim));
-  sph_sim_free(sim);
+  introduce();
+  bench_memory(); /* first: nothing is left of others */
   bench_neighbors();
   bench_operators();
   bench_rhs();

@@ -10,8 +10,12 @@ int bench_wanted(const char *name);
 int bench_filtered(void);
 /* One figure: median of values[n], with its spread (max - min)/median. */
 void bench_report(const char *name, const char *unit, double *values, int n);
+/* ... and the median of its ratios[n] to another, which was measured by turns with it. */
+void bench_report_over(const char *name, const char *unit, double *values, int n,
+                       const char *baseline, double *ratios);
 int bench_quick(void); /* --quick: small sizes */
 
+void bench_memory(void);      /* bytes a particle, by parts */
 void bench_neighbors(void);   /* sort and list build */
 void bench_rhs(void);         /* right-hand sides */
 void bench_operators(void);   /* operators on points */

@@ -118,10 +118,8 @@ BODY particle fluid_particle(int dim, unsigned terms, const vec *slot)
   a.p = slot[slot_p(dim)];
   a.c = slot[slot_c(dim)];
   a.V = slot[slot_V(dim)];
-  if (terms & SPH_THERMAL) {
-    a.u = slot[slot_u(dim)];
-    a.T = slot[slot_T(dim)];
-  }
+  if (terms & SPH_THERMAL) a.u = slot[slot_u(dim)];
+  if (terms & SPH_CONDUCTION) a.T = slot[slot_T(dim)];
   if (terms & SPH_FORM_PHI) a.phi = slot[slot_phi(dim)];
   return a;
 }
