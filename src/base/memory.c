@@ -6,17 +6,27 @@
 
 enum { LINE = 64 };
 
+/* In the line before stands the address that calloc gave.  Large blocks of calloc's are pages that
+ * cost nothing before they are touched: SUNDIALS clones vectors that it never uses. */
 void *sph_memory_take(size_t count, size_t size)
 {
-  if (size && count > (SIZE_MAX - LINE) / size) return NULL;
+  if (size && count > (SIZE_MAX - 2 * LINE) / size) return NULL;
   size_t bytes = (count * size + LINE - 1) / LINE * LINE;
   if (bytes == 0) bytes = LINE;
-  void *pointer = aligned_alloc(LINE, bytes);
-  if (pointer) memset(pointer, 0, bytes);
-  return pointer;
+  char *start = calloc(1, bytes + LINE);
+  if (!start) return NULL;
+  char *line = start + LINE - (uintptr_t)start % LINE;
+  memcpy(line - sizeof start, &start, sizeof start);
+  return line;
 }
 
-void sph_memory_free(void *pointer) { free(pointer); }
+void sph_memory_free(void *pointer)
+{
+  char *start;
+  if (!pointer) return;
+  memcpy(&start, (char *)pointer - sizeof start, sizeof start);
+  free(start);
+}
 
 void *sph_memory_new(size_t count, size_t size, const char *what, sph_error *error)
 {

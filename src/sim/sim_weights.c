@@ -9,6 +9,8 @@
 
 #include <math.h>
 
+enum { PARALLEL_MIN = 32768 }; /* entries from which on threads pay */
+
 static double mean(const double *a, long n)
 {
   double sum = 0;
@@ -130,14 +132,16 @@ void sph_sim_weights_scales(sph_sim *sim)
 int sph_sim_weights(N_Vector y, N_Vector weight, void *ctx)
 {
   const sph_sim *sim = ctx;
-  double *w = sph_nvector_data(weight);
   (void)y;
   for (int g = 0; g < sim->groups; g++)
     for (int field = 0; field < SPH_FIELDS; field++)
       for (int c = 0; c < 3; c++) {
-        long offset = sim->group[g]->offset[field][c];
-        for (long i = 0; offset >= 0 && i < sim->group[g]->capacity; i++)
-          w[offset + i] = 1 / sim->scale[g][field];
+        const long offset = sim->group[g]->offset[field][c], n = sim->group[g]->capacity;
+        if (offset < 0) continue;
+        const double value = 1 / sim->scale[g][field];
+        double *w = sph_nvector_data(weight) + offset;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
+        for (long i = 0; i < n; i++) w[i] = value;
       }
   return 0;
 }

@@ -11,7 +11,8 @@
 enum {
   CHUNK = 4096,         /* entries: 32 KiB */
   PARALLEL_MIN = 32768, /* entries from which on threads pay */
-  BLOCK = 512           /* entries of a linear combination that stay in the first cache */
+  BLOCK = 512,          /* entries of a linear combination that stay in the first cache */
+  MOST = 24             /* vectors of one whose zeros are left out */
 };
 
 typedef struct content {
@@ -195,7 +196,24 @@ static double part_constraint(const operands *o, long from, long to)
   return broken;
 }
 
-/* z = sum of c[k] X[k], block by block: each input is read once, the result written once. */
+/* z = sum of c[k] X[k] in one pass: each input is read once, the result written once. */
+#define COMBINATION(name, expression)                                          \
+  static void name(const operands *o, long from, long to)                      \
+  {                                                                            \
+    const double *c = o->c, *x0 = data(o->X[0]), *x1 = data(o->X[1]);          \
+    const double *x2 = data(o->X[2]), *x3 = o->count > 3 ? data(o->X[3]) : x2; \
+    const double *x4 = o->count > 4 ? data(o->X[4]) : x3;                      \
+    double *z = o->z;                                                          \
+    (void)x3, (void)x4;                                                        \
+    _Pragma("omp simd") for (long i = from; i < to; i++) z[i] = expression;    \
+  }
+COMBINATION(entry_three, (c[0] * x0[i] + c[1] * x1[i]) + c[2] * x2[i])
+COMBINATION(entry_four, (c[0] * x0[i] + c[1] * x1[i]) + (c[2] * x2[i] + c[3] * x3[i]))
+COMBINATION(entry_five,
+            ((c[0] * x0[i] + c[1] * x1[i]) + (c[2] * x2[i] + c[3] * x3[i])) + c[4] * x4[i])
+#undef COMBINATION
+
+/* The same of any number of vectors, block by block. */
 static void entry_combination(const operands *o, long from, long to)
 {
   for (long block = from; block < to; block += BLOCK) {
@@ -320,15 +338,28 @@ static sunbooleantype constraint_mask(N_Vector c, N_Vector x, N_Vector mask)
   return largest(x, part_constraint, o, 0) == 0;
 }
 
+/* Tables have many zeros: what is multiplied by one is not read.  Vectors beyond MOST are. */
 static int linear_combination(int count, sunrealtype *c, N_Vector *X, N_Vector z)
 {
+  double factor[MOST];
+  N_Vector of_factor[MOST];
+  operands o = {.c = factor, .X = of_factor, .z = data(z)};
   if (count < 1) return -1;
-  if (count == 1)
-    scale(c[0], X[0], z);
-  else if (count == 2)
-    linear_sum(c[0], X[0], c[1], X[1], z);
-  else
-    each(z, entry_combination, (operands){.count = count, .c = c, .X = X, .z = data(z)});
+  for (int k = 0; k < count && count <= MOST; k++)
+    if (c[k] != 0) {
+      factor[o.count] = c[k];
+      of_factor[o.count++] = X[k];
+    }
+  if (count > MOST) o.count = count, o.c = c, o.X = X;
+  switch (o.count) {
+  case 0: constant(0, z); break;
+  case 1: scale(o.c[0], o.X[0], z); break;
+  case 2: linear_sum(o.c[0], o.X[0], o.c[1], o.X[1], z); break;
+  case 3: each(z, entry_three, o); break;
+  case 4: each(z, entry_four, o); break;
+  case 5: each(z, entry_five, o); break;
+  default: each(z, entry_combination, o);
+  }
   return 0;
 }
 

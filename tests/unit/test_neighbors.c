@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "clock.h"
+#include "memory.h"
 #include "neighbors_data.h"
 
 enum { MOST = 20200, SMALL = 343 };
@@ -438,7 +439,7 @@ static void long_runs(void **state)
   }
   assert_int_equal(next, 3 + count);
   assert_int_equal(runs.n, 3);
-  free(runs.run);
+  sph_memory_free(runs.run);
 }
 
 static void find(void **state)

@@ -135,10 +135,37 @@ static void combinations(void **state)
     BOTH(N_VLinearCombination, count, c, v, v[0]); /* the first is also the result */
     fill(p.ours[0], p.serial[0], 54321);
   }
+  for (int zeros = 0; zeros < 32; zeros++) { /* what is multiplied by zero is left out */
+    double some[5];
+    for (int k = 0; k < 5; k++) some[k] = zeros >> k & 1 ? 0 : c[k];
+    BOTH(N_VLinearCombination, 5, some, v + 1, v[0]);
+  }
   BOTH(N_VScaleAddMulti, 1, c, v[1], v + 2, v);
   for (N_Vector *v = p.ours; v; v = v == p.ours ? p.serial : NULL)
     N_VScaleAddMulti(3, c, v[5], v + 1, v + 2);
   for (int k = 2; k < 5; k++) assert_same(&p, k, "N_VScaleAddMulti");
+  drop(&p);
+}
+
+/* More vectors than are looked at for zeros: the same ones again and again. */
+static void long_combinations(void **state)
+{
+  (void)state;
+  enum { LONG = 40 };
+  double c[LONG];
+  uint64_t seed = 4711;
+  pair p = make(2);
+  for (int count = 6; count <= LONG; count += 17) {
+    N_Vector ours[LONG], serial[LONG];
+    for (int k = 0; k < count; k++) {
+      c[k] = k % 3 ? 0.1 * chance(&seed) : 0;
+      ours[k] = p.ours[1 + k % (VECTORS - 1)];
+      serial[k] = p.serial[1 + k % (VECTORS - 1)];
+    }
+    N_VLinearCombination(count, c, ours, p.ours[0]);
+    N_VLinearCombination(count, c, serial, p.serial[0]);
+    assert_same(&p, 0, "N_VLinearCombination");
+  }
   drop(&p);
 }
 
@@ -276,6 +303,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(entrywise),
       cmocka_unit_test(combinations),
+      cmocka_unit_test(long_combinations),
       cmocka_unit_test(reductions),
       cmocka_unit_test(tests_of_entries),
       cmocka_unit_test(bits_do_not_depend_on_threads),
