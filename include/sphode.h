@@ -8,6 +8,7 @@
 #include "sphode/base.h"
 #include "sphode/boundary.h"
 #include "sphode/case.h"
+#include "sphode/checkpoint.h"
 #include "sphode/eos.h"
 #include "sphode/event.h"
 #include "sphode/field.h"

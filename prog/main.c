@@ -20,13 +20,28 @@ static const command commands[] = {
      "  -s, --set KEY=VALUE    instead of what the file says: spacing=1cm, run.end=2s,\n"
      "                         parameters.H=0.3m, groups.water.density=900; repeatable\n"
      "  -t, --threads N        results do not depend on it\n"
-     "  -f, --force            write over a run that ended (one that was killed needs no force)\n"
+     "  -f, --force            write over a run that ended, or one that can go on\n"
      "  -q, --quiet            no progress, no summary\n"
      "      --strict           exit status 3 where a comparison misses its bar\n"
      "\n"
-     "Exit status: 0 done, 1 failed, 2 bad usage, 3 see --strict, 130 or 143 stopped by Ctrl-C or "
-     "SIGTERM\n"
-     "(outputs and summary are whole then, too).\n"},
+     "Exit status: 0 done, 1 failed, 2 bad usage, 3 see --strict, 4 stopped by run.time_limit, "
+     "130\n"
+     "or 143 stopped by Ctrl-C or SIGTERM (outputs and summary are whole then, too, and restart\n"
+     "goes on).\n"},
+    {"restart", "DIR", "sUtqb", sph_prog_restart,
+     "go on with a run that was killed, stopped or is to go further",
+     "  From the last good checkpoint, with the case that it holds; files go on where they were.\n"
+     "  Results have the same bits as without the interruption.\n"
+     "\n"
+     "      --until TIME       instead of the end of the case, as 0.1s\n"
+     "  -s, --set KEY=VALUE    besides what was set then; the integrator starts anew from the "
+     "state,\n"
+     "                         and groups and terms must stay\n"
+     "  -t, --threads N        as with run\n"
+     "  -q, --quiet            as with run\n"
+     "      --strict           as with run\n"
+     "\n"
+     "Exit status: as with run.\n"},
     {"check", "CASE.yml", "st", sph_prog_check,
      "validate a case and estimate its cost; nothing is written",
      "  -s, --set KEY=VALUE    as with run\n"

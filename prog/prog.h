@@ -3,7 +3,7 @@
 #define SPH_PROG_H
 #include <sphode.h>
 
-enum { PROG_OK = 0, PROG_FAILED = 1, PROG_USAGE = 2, PROG_BAR = 3 };
+enum { PROG_OK = 0, PROG_FAILED = 1, PROG_USAGE = 2, PROG_BAR = 3, PROG_LIMIT = 4 };
 enum {
   PROG_SETS = 64,
   PROG_THREADS = 1024,
@@ -34,6 +34,7 @@ typedef struct prog_options {
 
 /* Each returns the exit status of the program. */
 int sph_prog_run(const prog_options *o);
+int sph_prog_restart(const prog_options *o);
 int sph_prog_check(const prog_options *o);
 int sph_prog_info(const prog_options *o);
 int sph_prog_plot(const prog_options *o);
@@ -48,14 +49,20 @@ int sph_prog_kernels_values(const prog_options *o);
 int sph_prog_error(int status, const char *format, ...) SPH_PRINTF(2, 3);
 
 /* Makes a directory ready for a run and holds it (nobody else writes there); a file descriptor, or
- * -1, told.  A run that ended stays unless force; one that was killed is written over. */
+ * -1, told.  A run that ended stays unless force, and so does one that can go on from a
+ * checkpoint. */
 int sph_prog_directory_take(const char *directory, int force);
+/* Holds the directory of a run as it is; likewise. */
+int sph_prog_directory_hold(const char *directory);
 
 typedef struct prog_progress {
   double end;                     /* [s] */
   double start, shown;            /* wall time [s] */
   double tenth;                   /* of the run, told last */
   double deadline;                /* the run is stopped then [s]; 0: never */
+  double limit;                   /* the run is stopped before it [s]; 0: never */
+  double stepped, longest;        /* wall time of the last step, longest step so far [s] */
+  double from;                    /* where the run began, or goes on [s] */
   int quiet, live;                /* live: one line that is written over */
   long bound_by[SPH_BOUND_COUNT]; /* at the last line */
 } prog_progress;
@@ -65,6 +72,8 @@ void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int qui
 void sph_prog_progress_end(prog_progress *p);
 /* The signal that stopped the run; 0: none. */
 int sph_prog_progress_signal(void);
+/* Would two steps as long as the longest go beyond the limit? */
+int sph_prog_progress_over(const prog_progress *p);
 double sph_prog_progress_now(void); /* wall time [s] */
 
 /* Draws the pictures of a finished run with n comparisons, and prints their paths. */

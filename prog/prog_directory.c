@@ -17,6 +17,8 @@ static const char *const ours[] = {
     "summary.json",
     "summary.txt",
     "series.csv",
+    "events.csv",
+    "checkpoint_[0-9]*.hdf",
     "snapshot_[0-9]*.hdf",
     "walls_[0-9]*.hdf",
     "snapshot.hdf.series",
@@ -82,22 +84,37 @@ static int remove_old(int at, const char *directory)
   return status;
 }
 
-int sph_prog_directory_take(const char *directory, int force)
+int sph_prog_directory_hold(const char *directory)
 {
-  if (make(directory)) return -1;
   int at = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (at < 0)
     sph_prog_error(PROG_FAILED, "cannot open the directory %s: %s", directory, strerror(errno));
-  else if (flock(at, LOCK_EX | LOCK_NB))
+  else if (!flock(at, LOCK_EX | LOCK_NB))
+    return at;
+  else
     sph_prog_error(PROG_FAILED, "another run is writing to %s now", directory);
-  else if (!force && (!faccessat(at, "summary.json", F_OK, 0) ||
-                      !faccessat(at, "work-precision.csv", F_OK, 0) ||
-                      !faccessat(at, "spectrum.txt", F_OK, 0)))
+  if (at >= 0) close(at);
+  return -1;
+}
+
+int sph_prog_directory_take(const char *directory, int force)
+{
+  if (make(directory)) return -1;
+  int at = sph_prog_directory_hold(directory);
+  if (at < 0) return -1;
+  if (!force &&
+      (!faccessat(at, "summary.json", F_OK, 0) || !faccessat(at, "work-precision.csv", F_OK, 0) ||
+       !faccessat(at, "spectrum.txt", F_OK, 0)))
     sph_prog_error(PROG_FAILED,
                    "%s holds a run that ended; --output DIR goes elsewhere, --force writes over it",
                    directory);
+  else if (!force && sph_checkpoint_find(directory, 0, NULL, 0))
+    sph_prog_error(PROG_FAILED,
+                   "%s holds a run that was interrupted; sphode restart %s goes on with it, "
+                   "--output DIR goes elsewhere, --force writes over it",
+                   directory, directory);
   else if (faccessat(at, "case.yml", F_OK, 0) || !remove_old(at, directory))
     return at;
-  if (at >= 0) close(at);
+  close(at);
   return -1;
 }

@@ -51,7 +51,7 @@ static void tell(prog_progress *p, sph_sim *sim)
   sph_sim_stats s;
   sph_sim_get_stats(sim, &s);
   double t = sph_sim_time(sim), used = sph_prog_progress_now() - p->start, left = 0;
-  if (t > 0) left = used * (p->end - t) / t;
+  if (t > p->from) left = used * (p->end - t) / (t - p->from);
   char line[200];
   snprintf(line, sizeof line,
            "t %.4g/%.4g s %3.0f %%  step %ld, dt %.3g s (%s)  %ld particles  %.3g Mpairs/s  "
@@ -84,8 +84,16 @@ static int is_due(prog_progress *p, const sph_sim *sim)
 static int progress(void *ctx, sph_sim *sim)
 {
   prog_progress *p = ctx;
+  const double now = sph_prog_progress_now();
+  p->longest = fmax(p->longest, now - p->stepped);
+  p->stepped = now;
   if (!p->quiet && is_due(p, sim)) tell(p, sim);
-  return stopped_by || (p->deadline > 0 && sph_prog_progress_now() > p->deadline);
+  return stopped_by || (p->deadline > 0 && now > p->deadline) || sph_prog_progress_over(p);
+}
+
+int sph_prog_progress_over(const prog_progress *p)
+{
+  return p->limit > 0 && p->stepped + 2 * p->longest > p->limit;
 }
 
 void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int quiet)
@@ -93,8 +101,11 @@ void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int qui
   struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESETHAND};
   *p = (prog_progress){.end = end,
                        .start = sph_prog_progress_now(),
+                       .from = sph_sim_time(sim),
                        .quiet = quiet,
                        .live = isatty(STDERR_FILENO)};
+  p->stepped = p->start;
+  p->tenth = floor(10 * p->from / end);
   sigemptyset(&action.sa_mask); /* a second Ctrl-C ends the program at once */
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);

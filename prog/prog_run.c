@@ -6,21 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "prog.h"
-
-typedef struct job {
-  const prog_options *o;
-  sph_case *c;
-  sph_sim *sim;
-  char directory[4000];
-  int held;          /* the directory, -1: not */
-  sph_balance start; /* of the fluids */
-  sph_comparison *comparison;
-  int comparisons;
-} job;
+#include "prog_job.h"
 
 /* --output, or the name of the case file without what is behind its last dot. */
-static void name_directory(job *j)
+static void name_directory(prog_job *j)
 {
   const char *slash = strrchr(j->o->what, '/'), *name = slash ? slash + 1 : j->o->what;
   const char *dot = strrchr(name, '.');
@@ -31,7 +20,7 @@ static void name_directory(job *j)
     snprintf(j->directory, sizeof j->directory, "%.*s%s", length, name, dot ? "" : ".run");
 }
 
-static int write_case(const job *j)
+static int write_case(const prog_job *j)
 {
   char path[4096];
   snprintf(path, sizeof path, "%s/case.yml", j->directory);
@@ -44,36 +33,82 @@ static int write_case(const job *j)
 
 static int failed(const sph_error *error) { return sph_prog_error(PROG_FAILED, "%s", error->text); }
 
-static int prepare(job *j)
+/* Drifts are told from the start of the run, whichever part of it goes on now. */
+static int keep_start(void *ctx, sph_sim *sim, sph_keep *keep, sph_error *error)
+{
+  sph_balance *b = ctx;
+  (void)sim, (void)error;
+  sph_keep_real(keep, "mass", 1, &b->mass);
+  sph_keep_real(keep, "momentum", 3, b->momentum);
+  sph_keep_real(keep, "angular_momentum", 3, b->angular_momentum);
+  sph_keep_real(keep, "kinetic", 1, &b->kinetic);
+  sph_keep_real(keep, "internal", 1, &b->internal);
+  sph_keep_real(keep, "potential", 1, &b->potential);
+  return sph_keep_real(keep, "total", 1, &b->total);
+}
+
+int sph_prog_run_build(prog_job *j)
 {
   sph_error error = {0};
-  j->c = sph_case_read(j->o->what, j->o->sets, j->o->set, &error);
-  if (j->c && sph_case_check_parts(j->c, &error)) return failed(&error);
-  if (j->c) j->sim = sph_case_build(j->c, j->o->threads, &error);
+  if (sph_case_check_parts(j->c, &error)) return failed(&error);
+  j->sim = sph_case_build(j->c, j->o->threads, &error);
   if (!j->sim) return failed(&error);
   if (sph_sim_evaluate(j->sim))
     return sph_prog_error(PROG_FAILED, "%s: %s", j->o->what, sph_sim_error(j->sim));
   sph_sim_balance(j->sim, &j->start);
-  name_directory(j);
-  j->held = sph_prog_directory_take(j->directory, j->o->force);
-  if (j->held < 0) return PROG_FAILED;
-  sph_case_build_outputs(j->c, j->sim, j->directory, j->o->command);
+  sph_sim_keep_add(j->sim, (sph_kept){.name = "balance", .keep = keep_start, .ctx = &j->start});
+  return PROG_OK;
+}
+
+int sph_prog_run_outputs(prog_job *j)
+{
+  sph_case_build_outputs(j->c, j->sim, j->directory, j->command);
+  sph_case_build_checkpoints(j->c, j->sim, j->directory, j->command);
   return write_case(j);
 }
 
-static int simulate(job *j)
+static int prepare(prog_job *j)
+{
+  sph_error error = {0};
+  j->c = sph_case_read(j->o->what, j->o->sets, j->o->set, &error);
+  if (!j->c) return failed(&error);
+  int status = sph_prog_run_build(j);
+  if (status) return status;
+  j->end = sph_case_end(j->c);
+  name_directory(j);
+  j->held = sph_prog_directory_take(j->directory, j->o->force);
+  return j->held < 0 ? PROG_FAILED : sph_prog_run_outputs(j);
+}
+
+/* A run that failed or was stopped: where does it go on? */
+static void tell_checkpoint(const prog_job *j)
+{
+  char path[4096];
+  sph_checkpoint_info info;
+  if (!sph_checkpoint_find(j->directory, 0, path, sizeof path)) return;
+  if (sph_checkpoint_info_read(path, &info, NULL)) return;
+  sph_prog_error(PROG_OK, "sphode restart %s goes on from t = %.6g s, step %ld", j->directory,
+                 info.time, info.step);
+  sph_checkpoint_info_free(&info);
+}
+
+static int simulate(prog_job *j)
 {
   prog_progress progress;
-  sph_prog_progress_start(&progress, j->sim, sph_case_end(j->c), j->o->quiet);
-  int status = sph_sim_run(j->sim, sph_case_end(j->c));
+  const double limit = sph_case_time_limit(j->c);
+  sph_prog_progress_start(&progress, j->sim, j->end, j->o->quiet);
+  if (limit > 0) progress.limit = progress.start + limit;
+  int status = sph_sim_run(j->sim, j->end);
   sph_prog_progress_end(&progress);
   if (status == SPH_OK) return PROG_OK;
   sph_prog_error(PROG_FAILED, "%s: %s", j->directory, sph_sim_error(j->sim));
-  int number = status == SPH_ERR_STOPPED ? sph_prog_progress_signal() : 0;
-  return number ? 128 + number : PROG_FAILED;
+  tell_checkpoint(j);
+  if (status != SPH_ERR_STOPPED) return PROG_FAILED;
+  int number = sph_prog_progress_signal();
+  return number ? 128 + number : sph_prog_progress_over(&progress) ? PROG_LIMIT : PROG_FAILED;
 }
 
-static int compare(job *j)
+static int compare(prog_job *j)
 {
   sph_error error = {0};
   if (sph_case_compare(j->c, j->sim, j->directory, &j->comparison, &j->comparisons, &error))
@@ -81,7 +116,7 @@ static int compare(job *j)
   return PROG_OK;
 }
 
-static void print_summary(const job *j)
+static void print_summary(const prog_job *j)
 {
   int n = sph_summary_text(NULL, 0, j->sim, &j->start, j->comparison, j->comparisons);
   char *text = n > 0 ? malloc((size_t)n + 1) : NULL;
@@ -93,7 +128,7 @@ static void print_summary(const job *j)
   free(text);
 }
 
-static int missed(const job *j)
+static int missed(const prog_job *j)
 {
   for (int k = 0; k < j->comparisons; k++)
     if (!isnan(j->comparison[k].bar) && !j->comparison[k].pass) return 1;
@@ -101,7 +136,7 @@ static int missed(const job *j)
 }
 
 /* What is told of a run, also of one that failed or was stopped. */
-static int conclude(job *j)
+static int conclude(prog_job *j)
 {
   sph_error error = {0};
   if (sph_summary_write(j->directory, j->sim, &j->start, j->comparison, j->comparisons, &error))
@@ -114,19 +149,23 @@ static int conclude(job *j)
   return PROG_OK;
 }
 
+int sph_prog_run_finish(prog_job *j, int status)
+{
+  if (!status) {
+    status = simulate(j);
+    int compared = status ? status : compare(j), concluded = conclude(j);
+    if (!status) status = compared ? compared : concluded;
+    if (!status && j->o->strict && missed(j)) status = PROG_BAR;
+  }
+  sph_case_compare_free(j->comparison, j->comparisons);
+  sph_sim_free(j->sim);
+  sph_case_free(j->c);
+  if (j->held >= 0) close(j->held);
+  return status;
+}
+
 int sph_prog_run(const prog_options *o)
 {
-  job j = {.o = o, .held = -1};
-  int status = prepare(&j);
-  if (!status) {
-    status = simulate(&j);
-    int compared = status ? status : compare(&j), concluded = conclude(&j);
-    if (!status) status = compared ? compared : concluded;
-    if (!status && o->strict && missed(&j)) status = PROG_BAR;
-  }
-  sph_case_compare_free(j.comparison, j.comparisons);
-  sph_sim_free(j.sim);
-  sph_case_free(j.c);
-  if (j.held >= 0) close(j.held);
-  return status;
+  prog_job j = {.o = o, .command = o->command, .held = -1};
+  return sph_prog_run_finish(&j, prepare(&j));
 }

@@ -39,6 +39,11 @@ SPH_API void sph_case_build_integrator(const sph_case *c, sph_integrator_def *de
 SPH_API void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directory,
                                     const char *command);
 
+/* Checkpoints of the case (sphode/checkpoint.h) into a directory, which hold its text; behind its
+ * outputs. */
+SPH_API void sph_case_build_checkpoints(const sph_case *c, sph_sim *sim, const char *directory,
+                                        const char *command);
+
 /* What a finished run in a directory says against the references of the case: *list[*n],
  * sph_case_compare_free.  Comparisons k with solutions in space leave directory/compare_k.csv. */
 SPH_API int sph_case_compare(const sph_case *c, sph_sim *sim, const char *directory,
@@ -52,8 +57,11 @@ SPH_API int sph_case_compare_plot(const sph_case *c, int k, const char *director
 
 SPH_API const char *sph_case_title(const sph_case *c);
 SPH_API const char *
-sph_case_text(const sph_case *c);               /* as read, with the --set lines as comments */
-SPH_API double sph_case_end(const sph_case *c); /* [s] */
+sph_case_text(const sph_case *c); /* as read, with the --set lines as comments */
+SPH_API const char *sph_case_source(const sph_case *c);     /* as read, without them */
+SPH_API const char *sph_case_set(const sph_case *c, int k); /* what was set; NULL behind the last */
+SPH_API double sph_case_end(const sph_case *c);             /* [s] */
+SPH_API double sph_case_time_limit(const sph_case *c);      /* wall time [s]; 0: none */
 SPH_API const char *sph_case_plot_field(const sph_case *c);
 SPH_API int sph_case_plot_frames(const sph_case *c);
 

@@ -16,6 +16,7 @@ extern "C" {
 #endif
 
 struct sph_sim;
+struct sph_keep;         /* sphode/checkpoint.h */
 struct sph_balance;      /* sphode/sim.h */
 struct sph_event_record; /* sphode/event.h */
 
@@ -33,6 +34,9 @@ typedef struct sph_output {
   /* An event happened (sphode/event.h), in the state that sim shows; NULL is fine. */
   int (*event)(void *ctx, struct sph_sim *sim, const struct sph_event_record *record,
                sph_error *error);
+  /* Of an open output: its place, for checkpoints.  When one is read it is called in place of open,
+   * and goes on from there.  NULL: the output is opened anew there. */
+  int (*keep)(void *ctx, struct sph_sim *sim, struct sph_keep *keep, sph_error *error);
 } sph_output;
 
 /* ---- snapshots -------------------------------------------------------------------------------

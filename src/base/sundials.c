@@ -32,6 +32,7 @@
 #define ADAPTIVE(Step)                                              \
   .set_init_step = SPH_SUNDIALS(Step, SetInitStep),                 \
   .get_current_step = SPH_SUNDIALS(Step, GetCurrentStep),           \
+  .get_last_step = SPH_SUNDIALS(Step, GetLastStep),                 \
   .get_num_err_test_fails = SPH_SUNDIALS(Step, GetNumErrTestFails), \
   .set_stability_fn = SPH_SUNDIALS(Step, SetStabilityFn),           \
   .set_cfl_fraction = SPH_SUNDIALS(Step, SetCFLFraction),           \

@@ -45,6 +45,7 @@ typedef struct sph_sundials_calls {
   /* adaptive steps: not of SPRKStep, nor of MRIStep up to 7.0 */
   int (*set_init_step)(void *memory, sunrealtype h);
   int (*get_current_step)(void *memory, sunrealtype *h);
+  int (*get_last_step)(void *memory, sunrealtype *h);
   int (*get_num_err_test_fails)(void *memory, long *fails);
   int (*set_stability_fn)(void *memory, ARKExpStabFn stable, void *data);
   int (*set_cfl_fraction)(void *memory, sunrealtype fraction);

@@ -122,6 +122,7 @@ sph_case *sph_case_read_text(const char *path, const char *text, size_t size, in
   c->path = sph_memory_string(path, error);
   if (c->path) c->root = sph_case_reader_parse(c->path, text, size, error);
   if (c->root) c->text = whole_text(text, size, n, set, error);
+  for (int k = 0; c->text && k < n; k++) c->source += strlen("# --set \n") + strlen(set[k]);
   if (n > SPH_CASE_SETS)
     sph_error_set(error, SPH_ERR_PARSE, "%d times --set; at most %d", n, SPH_CASE_SETS);
   for (int k = 0; k < n && c->root && !error->status; k++) {
@@ -168,6 +169,19 @@ const char *sph_case_title(const sph_case *c)
 }
 
 const char *sph_case_text(const sph_case *c) { return c ? c->text : ""; }
+
+const char *sph_case_source(const sph_case *c) { return c ? c->text + c->source : ""; }
+
+const char *sph_case_set(const sph_case *c, int k)
+{
+  return c && k >= 0 && k < SPH_CASE_SETS ? c->set[k] : NULL;
+}
+
+double sph_case_time_limit(const sph_case *c)
+{
+  const sph_case_node *limit = find(c, "run", "time_limit");
+  return limit ? limit->number : 0;
+}
 
 double sph_case_end(const sph_case *c)
 {

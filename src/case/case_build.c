@@ -1,6 +1,7 @@
 /* From a checked case to a simulation, by the public interface only. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "case_build.h"
@@ -9,6 +10,7 @@
 #include "case_schema.h"
 #include "memory.h"
 #include "sphode/case.h"
+#include "sphode/checkpoint.h"
 #include "sphode/kernel.h"
 
 typedef struct builder {
@@ -53,6 +55,9 @@ static int set_boundary(builder *b, sph_group *group, const sph_case_node *map)
     if (!s) return SPH_ERR_MEMORY;
     get_vector(motion, "velocity", s->velocity);
     s->slide = get_number(motion, "slide", 0) != 0;
+    char name[80];
+    snprintf(name, sizeof name, "motion.%.64s", sph_group_name(group));
+    sph_sim_keep_add(b->sim, (sph_kept){.name = name, .keep = sph_case_motion_keep, .ctx = s});
     sph_case_motion_set(&boundary, s);
     b->motions.of[b->motions.n].group = sph_group_name(group);
     b->motions.of[b->motions.n++].motion = s;
@@ -413,6 +418,33 @@ static void add_series(const sph_case *c, sph_sim *sim, const char *directory, d
     get_vector(node, "extent", m->extent);
   }
   sph_sim_add_output(sim, sph_output_series(directory, interval, monitors, n));
+}
+
+void sph_case_build_checkpoints(const sph_case *c, sph_sim *sim, const char *directory,
+                                const char *command)
+{
+  const sph_case_node *map = c ? child_of(c->root, "checkpoint") : NULL;
+  const char *set[SPH_CASE_SETS];
+  int sets = 0;
+  if (!c) {
+    sph_sim_fail(sim, SPH_ERR_ARGUMENT, "checkpoints of no case (NULL)");
+    return;
+  }
+  if (get_number(map, "keep", 2) == 0) return;
+  while (sets < SPH_CASE_SETS && sph_case_set(c, sets)) set[sets] = sph_case_set(c, sets), sets++;
+  char *path = realpath(c->path, NULL); /* where the files of the case are, wherever we are then */
+  const sph_checkpoint_def def = {.directory = directory,
+                                  .steps = (long)get_number(map, "steps", 0),
+                                  .interval = get_number(map, "interval", 0),
+                                  .wall = get_number(map, "wall", 0),
+                                  .keep = (int)get_number(map, "keep", 2),
+                                  .case_path = path ? path : c->path,
+                                  .case_text = sph_case_source(c),
+                                  .command = command,
+                                  .sets = sets,
+                                  .set = set};
+  sph_checkpoint_set(sim, &def);
+  free(path);
 }
 
 void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directory,

@@ -43,6 +43,7 @@ enum { SPH_CASE_NAMES = 100, SPH_CASE_SETS = 64 };
 
 struct sph_case {
   char *path, *text; /* owned */
+  size_t source;     /* where in text the file begins, behind what was set */
   sph_case_node *root;
   int dim;
   int n;                               /* of names */

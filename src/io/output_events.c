@@ -13,6 +13,8 @@ typedef struct context {
   sph_rows rows;
 } context;
 
+static const char header[] = "time [s],step,event,value\n";
+
 static int open_events(void *ctx, sph_sim *sim, sph_error *error)
 {
   context *c = ctx;
@@ -22,7 +24,7 @@ static int open_events(void *ctx, sph_sim *sim, sph_error *error)
   int status = sph_error_set(error, c->error.status, "%s", c->error.text);
   if (status == SPH_OK) status = sph_rows_open(&c->rows, c->directory, "events.csv", error);
   if (status != SPH_OK) return status;
-  sph_text_add(&row, "time [s],step,event,value\n");
+  sph_text_add(&row, "%s", header);
   return sph_rows_append(&c->rows, &row, error);
 }
 
@@ -39,6 +41,15 @@ static int add_event(void *ctx, sph_sim *sim, const sph_event_record *record, sp
   (void)sim;
   sph_text_add(&row, "%.17g,%ld,%s,%.17g\n", record->t, record->step, record->name, record->value);
   return sph_rows_append(&c->rows, &row, error);
+}
+
+static int keep_events(void *ctx, sph_sim *sim, sph_keep *keep, sph_error *error)
+{
+  context *c = ctx;
+  (void)sim;
+  if (!c) return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: an output of events");
+  int status = sph_error_set(error, c->error.status, "%s", c->error.text);
+  return status ? status : sph_rows_keep(&c->rows, c->directory, "events.csv", header, keep);
 }
 
 static int close_events(void *ctx, sph_sim *sim, sph_error *error)
@@ -71,6 +82,7 @@ sph_output sph_output_events(const char *directory)
                       .frame = frame_events,
                       .event = add_event,
                       .close = close_events,
+                      .keep = keep_events,
                       .ctx = c,
                       .free = free_events};
 }

@@ -119,6 +119,21 @@ static int frame_series(void *ctx, sph_sim *sim, sph_error *error)
   return status;
 }
 
+static int keep_series(void *ctx, sph_sim *sim, sph_keep *keep, sph_error *error)
+{
+  context *c = ctx;
+  sph_text columns = {0};
+  if (!c) return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: a time series");
+  int status = sph_error_set(error, c->error.status, "%s", c->error.text);
+  for (int k = 0; !status && k < c->n; k++) status = sph_monitor_check(&c->monitors[k], sim, error);
+  if (status) return status;
+  header(c, sim, &columns);
+  status = sph_error_set(error, columns.error.status, "%s", columns.error.text);
+  if (!status) status = sph_rows_keep(&c->rows, c->directory, "series.csv", columns.data, keep);
+  sph_text_free(&columns);
+  return status;
+}
+
 static int close_series(void *ctx, sph_sim *sim, sph_error *error)
 {
   context *c = ctx;
@@ -174,6 +189,7 @@ sph_output sph_output_series(const char *directory, double interval, const sph_m
                       .open = open_series,
                       .frame = frame_series,
                       .close = close_series,
+                      .keep = keep_series,
                       .ctx = c,
                       .free = free_series};
 }

@@ -30,6 +30,52 @@ int sph_rows_append(sph_rows *rows, sph_text *row, sph_error *error)
   return status;
 }
 
+/* Is this how the file begins? */
+static int begins(int fd, const char *header)
+{
+  char part[256];
+  for (size_t at = 0, n = strlen(header); at < n;) {
+    size_t wanted = n - at < sizeof part ? n - at : sizeof part;
+    ssize_t got = pread(fd, part, wanted, (off_t)at);
+    if (got <= 0 || memcmp(part, header + at, (size_t)got) != 0) return 0;
+    at += (size_t)got;
+  }
+  return 1;
+}
+
+static int reopen(sph_rows *rows, const char *header, long bytes, sph_error *error)
+{
+  rows->fd = open(rows->path, O_RDWR | O_APPEND | O_CLOEXEC);
+  if (rows->fd < 0)
+    return sph_error_set(error, SPH_ERR_FILE, "cannot go on with %s: %s", rows->path,
+                         strerror(errno));
+  const off_t size = lseek(rows->fd, 0, SEEK_END);
+  if (size < bytes)
+    return sph_error_set(error, SPH_ERR_FILE, "%s has %ld bytes, had %ld then: rows are missing",
+                         rows->path, (long)size, bytes);
+  if (!begins(rows->fd, header))
+    return sph_error_set(error, SPH_ERR_FILE, "%s has other columns", rows->path);
+  if (ftruncate(rows->fd, bytes) == 0) return SPH_OK;
+  return sph_error_set(error, SPH_ERR_FILE, "cannot go on with %s: %s", rows->path,
+                       strerror(errno));
+}
+
+int sph_rows_keep(sph_rows *rows, const char *directory, const char *name, const char *header,
+                  sph_keep *keep)
+{
+  long bytes = 0;
+  if (!sph_keep_reading(keep)) {
+    if (fsync(rows->fd) != 0)
+      return sph_error_set(keep->error, SPH_ERR_FILE, "cannot write %s: %s", rows->path,
+                           strerror(errno));
+    bytes = (long)lseek(rows->fd, 0, SEEK_END);
+    return sph_keep_integer(keep, "bytes", 1, &bytes);
+  }
+  int status = sph_file_path(rows->path, directory, name, keep->error);
+  if (!status) status = sph_keep_integer(keep, "bytes", 1, &bytes);
+  return status ? status : reopen(rows, header, bytes, keep->error);
+}
+
 int sph_rows_close(sph_rows *rows, sph_error *error)
 {
   if (rows->fd < 0) return SPH_OK;

@@ -2,6 +2,7 @@
 #ifndef SPH_ROWS_H
 #define SPH_ROWS_H
 #include "file.h"
+#include "keep.h"
 #include "text.h"
 
 typedef struct sph_rows {
@@ -13,6 +14,10 @@ typedef struct sph_rows {
 int sph_rows_open(sph_rows *rows, const char *directory, const char *name, sph_error *error);
 /* One write; what does not fit on the disk is taken back.  Frees the row. */
 int sph_rows_append(sph_rows *rows, sph_text *row, sph_error *error);
+/* For a checkpoint: what is in the file is on disk.  When one is read: opens the file, which begins
+ * with `header`, and cuts off the rows that came after the checkpoint. */
+int sph_rows_keep(sph_rows *rows, const char *directory, const char *name, const char *header,
+                  sph_keep *keep);
 /* Synchronises and closes it, if it is open. */
 int sph_rows_close(sph_rows *rows, sph_error *error);
 

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "keep.h"
 #include "linear_data.h"
 #include "memory.h"
 #include "name.h"
@@ -131,6 +132,16 @@ int sph_linear_solve(sph_linear *solver, const sph_linear_task *task, sph_error 
   if (!status) status = check_solution(solver, task);
   if (!status) solver->stats.solves++;
   return status;
+}
+
+int sph_linear_keep(sph_linear *solver, sph_keep *keep)
+{
+  if (!solver->method->keep) return SPH_OK;
+  sph_keep_int(keep, "has_pattern", &solver->has_pattern);
+  sph_keep_int(keep, "has_values", &solver->has_values);
+  sph_keep_integer(keep, "pattern", 1, &solver->pattern);
+  sph_keep_integer(keep, "values", 1, &solver->values);
+  return solver->method->keep(solver, keep);
 }
 
 const char *sph_linear_used(const sph_linear *solver) { return solver->used->name; }

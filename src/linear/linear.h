@@ -5,6 +5,7 @@
 #ifndef SPH_LINEAR_H
 #define SPH_LINEAR_H
 #include "csr.h"
+#include "sphode/checkpoint.h"
 
 typedef struct sph_linear sph_linear;
 
@@ -47,6 +48,10 @@ const char *sph_linear_used(const sph_linear *solver);
 
 /* Why the last solve returned SPH_RETRY, with its numbers; "" if it did not.  Never NULL. */
 const char *sph_linear_reason(const sph_linear *solver);
+
+/* What it learned that changes which bits come next, for checkpoints: a choice of methods; factors
+ * are made again. */
+int sph_linear_keep(sph_linear *solver, sph_keep *keep);
 
 void sph_linear_get_stats(const sph_linear *solver, sph_linear_stats *stats);
 void sph_linear_free(sph_linear *solver); /* NULL is fine */

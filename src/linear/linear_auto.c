@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "keep.h"
 #include "linear_cholmod.h"
 #include "linear_data.h"
 #include "linear_loops.h"
@@ -194,6 +195,30 @@ static int solve(sph_linear *solver, const sph_linear_task *task, sph_error *err
   return SPH_OK;
 }
 
+static int keep_choice(sph_linear *solver, sph_keep *keep)
+{
+  choice *c = solver->own;
+  long counts[] = {c->solves,  c->solves_before, c->matrices,   c->matrices_before,
+                   c->ordered, c->factored,      (long)c->print};
+  double costs[] = {c->condition, c->iterations, c->spent, c->rows, c->flops, c->entries};
+  sph_keep_integer(keep, "counts", sizeof counts / sizeof *counts, counts);
+  int status = sph_keep_real(keep, "costs", sizeof costs / sizeof *costs, costs);
+  c->solves = counts[0];
+  c->solves_before = counts[1];
+  c->matrices = counts[2];
+  c->matrices_before = counts[3];
+  c->ordered = (int)counts[4];
+  c->factored = (int)counts[5];
+  c->print = (uint64_t)counts[6];
+  c->condition = costs[0];
+  c->iterations = costs[1];
+  c->spent = costs[2];
+  c->rows = costs[3];
+  c->flops = costs[4];
+  c->entries = costs[5];
+  return status;
+}
+
 static void done(sph_linear *solver)
 {
   choice *c = solver->own;
@@ -202,5 +227,9 @@ static void done(sph_linear *solver)
   sph_memory_free(c);
 }
 
-const sph_linear_method sph_linear_auto = {
-    .name = "auto", .create = create, .prepare = prepare, .solve = solve, .free = done};
+const sph_linear_method sph_linear_auto = {.name = "auto",
+                                           .create = create,
+                                           .prepare = prepare,
+                                           .solve = solve,
+                                           .free = done,
+                                           .keep = keep_choice};

@@ -24,7 +24,8 @@ typedef struct sph_linear_method {
   int (*create)(sph_linear *solver, sph_error *error); /* sets own */
   int (*prepare)(sph_linear *solver, const sph_csr *A, int change, sph_error *error);
   int (*solve)(sph_linear *solver, const sph_linear_task *task, sph_error *error);
-  void (*free)(sph_linear *solver); /* own may be NULL */
+  void (*free)(sph_linear *solver);                /* own may be NULL */
+  int (*keep)(sph_linear *solver, sph_keep *keep); /* NULL: it remembers nothing but factors */
 } sph_linear_method;
 
 extern const sph_linear_method sph_linear_pcg_jacobi, sph_linear_ic0;

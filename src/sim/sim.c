@@ -13,6 +13,7 @@
 #include "sim_data.h"
 #include "sim_event.h"
 #include "sim_implicit.h"
+#include "sim_keep.h"
 #include "sim_parts.h"
 #include "sim_prepare.h"
 #include "sim_rhs.h"
@@ -353,6 +354,7 @@ void sph_sim_free(sph_sim *sim)
   for (int k = 0; k < sim->modifiers; k++)
     if (sim->modifier[k].modifier.free)
       sim->modifier[k].modifier.free(sim->modifier[k].modifier.ctx);
+  sph_sim_keep_free(sim);
   sph_term_set_free(&sim->terms);
   sph_memory_free(sim);
 }

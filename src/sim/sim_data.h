@@ -4,6 +4,7 @@
 #include "group_data.h"
 #include "integrator.h"
 #include "nvector.h"
+#include "sphode/checkpoint.h"
 #include "sphode/event.h"
 #include "sphode/kernel.h"
 #include "sphode/neighbors.h"
@@ -12,7 +13,14 @@
 #include "term_set.h"
 #include "tile_pair.h"
 
-enum { SPH_OUTPUTS_MAX = 16, SPH_METHOD_MAX = 64 };
+enum {
+  SPH_OUTPUTS_MAX = 16,
+  SPH_METHOD_MAX = 64,
+  SPH_KEPT_MAX = 32 + SPH_SETS_MAX,
+  SPH_KEPT_NAME = SPH_NAME_MAX + 32,
+  /* Parameters that events change: of terms, two of each group. */
+  SPH_CHANGEABLE = 12 + SPH_CALLED_TERMS_MAX + 2 * SPH_SETS_MAX
+};
 
 /* Part SPH_WHOLE is f; the others are enum sph_piece. */
 enum { SPH_WHOLE = SPH_PIECE_COUNT, SPH_PARTS };
@@ -82,6 +90,19 @@ typedef struct sph_modifying {
   double done;  /* steps since it ran; or intervals so far */
 } sph_modifying;
 
+/* What a user's callbacks remember. */
+typedef struct sph_keeping {
+  sph_kept kept; /* its name is the one here */
+  char name[SPH_KEPT_NAME];
+} sph_keeping;
+
+/* Who writes checkpoints: asked behind each step, and where a run ends. */
+typedef struct sph_saver {
+  int (*save)(void *ctx, sph_sim *sim, int last, sph_error *error);
+  void *ctx;
+  void (*free)(void *ctx);
+} sph_saver;
+
 struct sph_sim {
   sph_error error;
   char retry[200]; /* why the last evaluation asked for a smaller step */
@@ -107,6 +128,9 @@ struct sph_sim {
   sph_scheme scheme; /* the user's own, copied; its name is method */
   int (*progress)(void *ctx, sph_sim *sim);
   void *progress_ctx;
+  int kepts;
+  sph_keeping kept[SPH_KEPT_MAX];
+  sph_saver saver;
 
   /* Made by sph_sim_prepare. */
   int prepared;
@@ -128,12 +152,14 @@ struct sph_sim {
   double F_scale, W_scale;                /* sigma/h^(d+2), sigma/h^d */
   double scale[SPH_SETS_MAX][SPH_FIELDS]; /* error weights: scale of each field */
   double step_scale_v;                    /* V of the error weights [m/s] */
+  double given[SPH_CHANGEABLE];           /* parameters at the start (sim_keep.c) */
 
   /* Moving. */
   double time;            /* of the state shown */
   double looked;          /* for events, up to here [s] */
   const char *stopped_by; /* the event that ended the last run or step; NULL: none */
   double start;           /* of the run: frames count from here */
+  double begun;           /* sph_clock when the present sph_sim_run began; 0: none goes on */
   int listed;             /* neighbour lists exist */
   int fresh;              /* ... and have not been counted yet */
   int derived;            /* pressure etc. are those of the state shown */

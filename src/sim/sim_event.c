@@ -45,8 +45,8 @@ int sph_sim_event_start(sph_sim *sim)
   for (int k = 0; !status && k < sim->watches; k++) {
     sph_watch *w = &sim->watch[k];
     double value = NAN;
-    if (w->known) continue;
     if (sph_event_steady(w)) status = make_slopes(sim);
+    if (w->known) continue;
     if (!status) status = value_now(sim, w, &value);
     w->known = !status;
     w->side = side(value);

@@ -22,6 +22,7 @@
 #include "sim_implicit.h"
 
 #include "clock.h"
+#include "keep.h"
 #include "memory.h"
 #include "sim_parts.h"
 #include "sim_unknown.h"
@@ -274,6 +275,40 @@ double sph_sim_implicit_bytes(const sph_sim *sim)
   return sizeof *own + 8.0 * vectors * (double)sim->layout.length +
          8.0 * 5 * (double)own->rows * sim->dim + sph_sim_matrix_pattern_bytes(&own->pattern) +
          sph_sim_matrix_bytes(&own->scalar) + sph_sim_matrix_bytes(&own->vector);
+}
+
+/* Patterns and matrices have numbers by which solvers know them again; those themselves are made
+ * anew. */
+static int keep_numbers(sph_sim *sim, sph_keep *keep)
+{
+  struct sph_implicit *own = sim->implicit;
+  sph_pattern *pattern = &own->pattern;
+  sph_keep_integer(keep, "builds", 1, &pattern->builds);
+  sph_keep_integer(keep, "pattern", 1, &pattern->number);
+  sph_keep_integer(keep, "scalar_values", 1, &own->scalar.values);
+  int status = sph_keep_integer(keep, "vector_values", 1, &own->vector.values);
+  if (status || !sph_keep_reading(keep)) return status;
+  pattern->again = 1;
+  own->scalar.pattern = own->vector.pattern = -1;
+  own->scalar.from_pattern = own->vector.from_pattern = 0;
+  return SPH_OK;
+}
+
+int sph_sim_implicit_keep(sph_sim *sim, sph_keep *keep)
+{
+  static const char *const name[2] = {"scalar", "vector"};
+  const char *method = sim->integrator_def.linear;
+  struct sph_implicit *own = sim->implicit;
+  if (!own) return SPH_OK;
+  int status = keep_numbers(sim, keep);
+  if (!sph_keep_word(keep, "linear", method ? method : "auto")) return keep->error->status;
+  for (int k = 0; !status && k < 2; k++) {
+    if (!own->solver[k]) continue;
+    sph_keep_enter(keep, name[k]);
+    status = sph_linear_keep(own->solver[k], keep);
+    sph_keep_leave(keep);
+  }
+  return status;
 }
 
 void sph_sim_implicit_free(sph_sim *sim)

@@ -7,6 +7,8 @@
 int sph_sim_implicit_make(sph_sim *sim);
 void sph_sim_implicit_free(sph_sim *sim);
 double sph_sim_implicit_bytes(const sph_sim *sim); /* without its linear solvers */
+/* What they remember from stage to stage, for checkpoints. */
+int sph_sim_implicit_keep(sph_sim *sim, sph_keep *keep);
 
 /* Is there an implicit term of the user's own that changes the energy?  Has every fluid one? */
 int sph_sim_implicit_heats(const sph_sim *sim);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "keep.h"
 #include "sim_rhs.h"
 
 enum { PARALLEL_MIN = 4096 };
@@ -36,23 +37,23 @@ static int current(const sph_evaluation *e)
   return 1;
 }
 
-static int sort(sph_evaluation *e, int g, sph_error *error)
+static void take_down(const sph_evaluation *e, int g)
 {
-  sph_sim *sim = e->sim;
-  const double *x[3] = {e->view[g].x[0], e->view[g].x[1], e->view[g].x[2]};
-  int status = sph_neighbors_sort(sim->neighbors, g, e->view[g].n, x, error);
-  for (int d = 0; !status && d < sim->dim; d++)
-    memcpy(sim->sorted[g].built[d], x[d], (size_t)e->view[g].n * sizeof(double));
-  return status;
+  const sph_sim *sim = e->sim;
+  for (int d = 0; d < sim->dim; d++)
+    memcpy(sim->sorted[g].built[d], e->view[g].x[d], (size_t)e->view[g].n * sizeof(double));
 }
 
-int sph_sim_lists_update(sph_evaluation *e)
+/* Order and lists of the positions in `built`. */
+static int build(sph_sim *sim)
 {
-  sph_sim *sim = e->sim;
-  if (current(e)) return SPH_OK;
   sph_error error = {0};
   sim->listed = 0;
-  for (int g = 0; !error.status && g < sim->groups; g++) sort(e, g, &error);
+  for (int g = 0; !error.status && g < sim->groups; g++) {
+    double *const *x = sim->sorted[g].built;
+    sph_neighbors_sort(sim->neighbors, g, sim->group[g]->n,
+                       (const double *const[]){x[0], x[1], x[2]}, &error);
+  }
   for (int g = 0; !error.status && g < sim->groups; g++)
     for (int s = 0; !error.status && s < sim->groups; s++)
       if (sph_sim_interaction_listed(sim, sim->group[g], sim->group[s]))
@@ -62,4 +63,37 @@ int sph_sim_lists_update(sph_evaluation *e)
   sim->listed = sim->fresh = 1;
   sim->list_builds++;
   return SPH_OK;
+}
+
+int sph_sim_lists_update(sph_evaluation *e)
+{
+  if (current(e)) return SPH_OK;
+  for (int g = 0; g < e->sim->groups; g++) take_down(e, g);
+  return build(e->sim);
+}
+
+/* The order of particles, and so the bits of sums, is that of the last build: it is made again from
+ * its positions. */
+int sph_sim_lists_keep(sph_sim *sim, sph_keep *keep)
+{
+  static const char *const axis[3] = {"x", "y", "z"};
+  int listed = sim->listed, status = sph_keep_int(keep, "listed", &listed);
+  sph_keep_enter(keep, "group");
+  for (int g = 0; !status && listed && g < sim->groups; g++) {
+    sph_keep_enter(keep, sim->group[g]->name);
+    for (int d = 0; d < sim->dim && d < 3; d++)
+      status = sph_keep_real(keep, axis[d], sim->group[g]->n, sim->sorted[g].built[d]);
+    sph_keep_leave(keep);
+  }
+  sph_keep_leave(keep);
+  if (!status && keep->reading) {
+    sim->listed = 0;
+    if (listed && build(sim))
+      status = sph_error_set(keep->error, SPH_ERR_FILE, "its particles have no neighbours: %s",
+                             sim->error.status ? sim->error.text : sim->retry);
+  }
+  sph_keep_int(keep, "fresh", &sim->fresh);
+  sph_keep_integer(keep, "builds", 1, &sim->list_builds);
+  sph_keep_integer(keep, "near", 1, &sim->near);
+  return status ? status : sph_keep_real(keep, "pairs", 1, &sim->pairs_now);
 }

@@ -167,7 +167,8 @@ static void pack_built(const sph_evaluation *e)
 int sph_sim_matrix_pattern(sph_evaluation *e, sph_pattern *pattern)
 {
   sph_sim *sim = e->sim;
-  if (pattern->number && pattern->builds == sim->list_builds) return SPH_OK;
+  const int known = pattern->number && pattern->builds == sim->list_builds;
+  if (known && !pattern->again) return SPH_OK;
   int status = reserve_pattern(sim, pattern);
   if (!status) pack_built(e);
   for (int g = 0; !status && g < sim->groups; g++)
@@ -177,7 +178,8 @@ int sph_sim_matrix_pattern(sph_evaluation *e, sph_pattern *pattern)
   if (!status) status = make_columns(sim, pattern);
   if (status) return status;
   pattern->builds = sim->list_builds;
-  pattern->number++;
+  pattern->number += !known;
+  pattern->again = 0;
   return SPH_OK;
 }
 

@@ -19,6 +19,7 @@ typedef struct sph_pattern {
   int groups;
   long builds;             /* of the lists that it belongs to */
   long number;             /* rises with each new pattern */
+  int again;               /* it is that of a checkpoint, and to be made again under its number */
   long rows;               /* fluid particles */
   long base[SPH_SETS_MAX]; /* row of a group's first sorted particle */
   long *start;             /* [rows + 1] of the couplings of each */

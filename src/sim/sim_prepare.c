@@ -11,6 +11,7 @@
 #include "sim_energy.h"
 #include "sim_fit.h"
 #include "sim_implicit.h"
+#include "sim_keep.h"
 #include "sim_parts.h"
 #include "sim_relax.h"
 #include "sim_rhs.h"
@@ -380,6 +381,7 @@ int sph_sim_prepare(sph_sim *sim)
   if (!status) status = make_integrator(sim);
   sim->prepared = sim->derived = !status;
   sim->start = sim->time;
+  sph_sim_keep_start(sim);
   sim->revision++;
   return status;
 }

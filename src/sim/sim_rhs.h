@@ -25,6 +25,7 @@ int sph_sim_rhs_piece(int piece, double t, N_Vector y, N_Vector ydot, void *sim)
 int sph_sim_rhs_vectors(sph_sim *sim, N_Vector y, N_Vector other);
 
 int sph_sim_lists_update(sph_evaluation *e);           /* neighbors */
+int sph_sim_lists_keep(sph_sim *sim, sph_keep *keep);  /* they, for checkpoints */
 int sph_sim_density(sph_evaluation *e);                /* density */
 int sph_sim_material_eos(sph_evaluation *e);           /* eos */
 int sph_sim_bodies_add(sph_evaluation *e);             /* bodies: starts all rates */

@@ -8,6 +8,7 @@
 
 #include "clock.h"
 #include "sim_event.h"
+#include "sim_keep.h"
 #include "sim_parts.h"
 #include "sim_prepare.h"
 #include "sim_rhs.h"
@@ -191,11 +192,16 @@ static int run(sph_sim *sim, double t_end)
   status = open_outputs(sim);
   while (!status && sim->time < t_end && !sim->stopped_by) {
     status = sph_sim_run_step(sim, t_end, 1);
-    if (!status && sim->progress && sim->progress(sim->progress_ctx, sim))
-      status = sph_sim_fail(sim, SPH_ERR_STOPPED, "stopped on request at t = %g s", sim->time);
+    if (!status) status = sph_sim_keep_save(sim, 0);
+    if (!status && sim->progress && sim->progress(sim->progress_ctx, sim)) {
+      status = sph_sim_keep_save(sim, 1);
+      if (!status)
+        status = sph_sim_fail(sim, SPH_ERR_STOPPED, "stopped on request at t = %g s", sim->time);
+    }
   }
   for (int k = 0; !status && k < sim->outlets; k++) /* INFINITY: start and end only */
     if (isinf(sim->outlet[k].output.interval)) status = frame(sim, &sim->outlet[k]);
+  if (!status) status = sph_sim_keep_save(sim, 1);
   if (status) sph_sim_run_close(sim);
   return status;
 }
@@ -203,7 +209,10 @@ static int run(sph_sim *sim, double t_end)
 int sph_sim_run(sph_sim *sim, double t_end)
 {
   double begin = sph_clock();
+  if (!sim) return SPH_ERR_MEMORY;
+  sim->begun = begin;
   int status = run(sim, t_end);
-  if (sim) sim->seconds += sph_clock() - begin;
+  sim->seconds += sph_clock() - begin;
+  sim->begun = 0;
   return status;
 }

@@ -35,12 +35,15 @@ int sph_sim_walls_move(sph_evaluation *e)
   return SPH_OK;
 }
 
-/* One wall particle at sorted place s, from its sums. */
-static void fill(const sph_sim *sim, const sph_group *wall, const sph_view *view, long s, long i,
+/* One wall particle at sorted place s, from its sums.  A part of f that knows no pressure has none
+ * here either: what the last evaluation left would count, if only in the last bit of m/rho. */
+static void fill(const sph_evaluation *e, const sph_group *wall, long s, long i,
                  const double g_minus_a[3])
 {
+  const sph_sim *sim = e->sim;
+  const sph_view *view = &e->view[wall->index];
   double *const *sum = sim->sorted[wall->index].sum;
-  double W = sum[SPH_WALL_W][s], p = 0, u = 0;
+  double W = e->part->eos ? sum[SPH_WALL_W][s] : 0, p = 0, u = 0;
   if (W > 0) {
     p = sum[SPH_WALL_P][s];
     // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): dim <= 3
@@ -76,7 +79,7 @@ void sph_sim_walls_finish(const sph_evaluation *e, int g)
   double g_minus_a[3];
   sph_sim_walls_force(e, g, g_minus_a);
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (wall->n > 512)
-  for (long s = 0; s < wall->n; s++) fill(sim, wall, &e->view[g], s, order[s], g_minus_a);
+  for (long s = 0; s < wall->n; s++) fill(e, wall, s, order[s], g_minus_a);
 }
 
 int sph_sim_walls_fill(sph_evaluation *e)

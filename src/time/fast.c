@@ -124,6 +124,11 @@ void sph_fast_free(sph_fast *fast)
 
 void sph_fast_reset(sph_fast *fast) { fast->h = INFINITY; }
 
+int sph_fast_keep(sph_fast *fast, sph_keep *keep)
+{
+  return sph_keep_real(keep, "fast_step", 1, &fast->h);
+}
+
 /* ---- one step */
 
 int sph_fast_rhs(sph_fast *fast, double t, N_Vector y, N_Vector ydot)

@@ -29,6 +29,7 @@ int sph_fast_evolve(sph_fast *fast, const sph_fast_rates *rates, double t0, doub
 int sph_fast_rhs(sph_fast *fast, double t, N_Vector y, N_Vector ydot);
 /* Step sizes so far say nothing of what follows. */
 void sph_fast_reset(sph_fast *fast);
+int sph_fast_keep(sph_fast *fast, sph_keep *keep); /* they, for checkpoints */
 
 /* Is def right for the fast part, or without one says nothing of it?  Else recorded. */
 int sph_fast_check(const sph_integrator_def *def, int has_fast, sph_error *error);

@@ -4,6 +4,7 @@
 #ifndef SPH_INTEGRATOR_INTERNAL_H
 #define SPH_INTEGRATOR_INTERNAL_H
 #include "problem.h"
+#include "sphode/checkpoint.h"
 #include "sphode/integrator.h"
 
 typedef struct sph_integrator sph_integrator;
@@ -36,6 +37,9 @@ int sph_integrator_reset(sph_integrator *integrator, double t);
  * leave errors what they are. */
 int sph_integrator_go_on(sph_integrator *integrator, double t);
 const sph_step_stats *sph_integrator_stats(const sph_integrator *integrator);
+/* All that it remembers besides y, which is there already when this is read.  Another method than
+ * the one that wrote it starts anew from y. */
+int sph_integrator_keep(sph_integrator *integrator, sph_keep *keep);
 /* What bound the last accepted step: enum sph_bound. */
 int sph_integrator_bound(const sph_integrator *integrator);
 

@@ -1,22 +1,31 @@
 #include "integrator_arkode.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
 #include "integrator_table.h"
+#include "keep.h"
 #include "memory.h"
 #include "nvector.h"
 #include "relax.h"
 
 static const double CLOSE = 1e-6; /* relative: such step sizes are the same */
+static const double GROWTH = 5, FIRST_GROWTH = 10;
 
 /* ARKODE goes on with vectors that got no memory: their operations do nothing, and here it ends.
  * */
 int sph_integrator_arkode_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *data)
 {
   sph_integrator *it = data;
+  sph_integrator_arkode *own = it->own;
   if (sph_nvector_lost(y)) return it->rhs_status = SPH_ERR_MEMORY;
-  return sph_integrator_rhs(it, t, y, ydot);
+  own->rates = ydot;
+  own->rates_t = t;
+  if (!own->use_kept) return sph_integrator_rhs(it, t, y, ydot);
+  own->use_kept = 0;
+  N_VScale(1, own->kept, ydot);
+  return it->rhs_status = SPH_OK;
 }
 
 int sph_integrator_arkode_piece(sph_integrator *it, int piece, double t, N_Vector y, N_Vector ydot)
@@ -74,8 +83,8 @@ static int configure(sph_integrator *it, sph_integrator_arkode *own)
   own->controller = (sph_sundials_controller){.step = control, .ctx = it};
   return sph_sundials_control(call, m, own->context, &own->controller) ||
          call->set_stability_fn(m, stable, it) || call->set_cfl_fraction(m, 0.5) ||
-         call->set_safety_factor(m, 0.9) || call->set_max_growth(m, 5) ||
-         call->set_max_first_growth(m, 10) || call->set_min_reduction(m, 0.1) ||
+         call->set_safety_factor(m, 0.9) || call->set_max_growth(m, GROWTH) ||
+         call->set_max_first_growth(m, FIRST_GROWTH) || call->set_min_reduction(m, 0.1) ||
          call->set_fixed_step_bounds(m, 1, 1) || call->set_max_efail_growth(m, 0.3) ||
          call->set_small_num_efails(m, 2) || call->set_max_err_test_fails(m, 12);
 }
@@ -108,6 +117,7 @@ void sph_integrator_arkode_free(sph_integrator *it)
   if (own->memory) own->call->free(&own->memory);
   sph_sundials_control_free(&own->controller);
   if (own->listening) sph_sundials_deaf(own->context);
+  if (own->kept) N_VDestroy(own->kept);
   sph_memory_free(own);
 }
 
@@ -130,7 +140,8 @@ int sph_integrator_arkode_reject(sph_integrator *it)
 {
   sph_integrator_arkode *own = it->own;
   own->fresh = 1;
-  own->resume = 0;
+  own->resume = own->ahead = 0;
+  own->use_kept = 0;
   own->end = it->time;
   sph_controller_forget(&own->past);
   it->rhs_status = 0;
@@ -151,8 +162,27 @@ int sph_integrator_arkode_start(sph_integrator *it)
   return status ? status : sph_integrator_arkode_reject(it);
 }
 
+/* Sets out from a checkpoint with the step that ARKODE had in mind there.  If it goes beyond the
+ * stop time, ARKODE makes it last (cut/last), cut = left (1 - 4 eps), which may differ from cut. */
+static int go_ahead(const sph_integrator *it, double t_stop)
+{
+  const sph_integrator_arkode *own = it->own;
+  double h = own->ahead, cut = (t_stop - it->time) * (1 - 4 * DBL_EPSILON);
+  if (it->time + h > t_stop || h == cut) h = own->last * (cut / own->last);
+  int failed = own->call->set_max_first_growth(own->memory, GROWTH);
+  return failed ? failed : own->call->set_init_step(own->memory, h);
+}
+
+/* From now on ARKODE knows the steps itself. */
+static int went_ahead(sph_integrator_arkode *own)
+{
+  if (!(own->ahead > 0)) return 0;
+  own->ahead = 0;
+  return own->call->set_max_first_growth(own->memory, FIRST_GROWTH);
+}
+
 /* The step that ARKODE will try, and what it needs for it. */
-static int prepare(sph_integrator *it, const sph_attempt *a, double *h)
+static int prepare(sph_integrator *it, const sph_attempt *a, double t_stop, double *h)
 {
   sph_integrator_arkode *own = it->own;
   *h = a->h;
@@ -169,7 +199,9 @@ static int prepare(sph_integrator *it, const sph_attempt *a, double *h)
   }
   if (own->fresh && it->first < 0.9 * *h) *h = it->first; /* else the limit binds as before */
   if (own->fresh) return own->call->set_init_step(own->memory, *h < INFINITY ? *h : 0);
-  return own->call->get_current_step(own->memory, h);
+  if (!(own->ahead > 0)) return own->call->get_current_step(own->memory, h);
+  *h = own->ahead;
+  return go_ahead(it, t_stop);
 }
 
 /* A relaxed step to a stop time ends beside it.  As if it had not: its state is that of the stop
@@ -188,10 +220,11 @@ int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *a, double t_s
   double t = it->time, left = t_stop - it->time, h = 0;
   own->text[0] = 0;
   it->rhs_status = 0;
-  int flag = prepare(it, a, &h);
+  int flag = prepare(it, a, t_stop, &h);
   own->trial = h;
   if (flag >= 0) flag = own->call->set_stop_time(own->memory, t_stop);
   if (flag >= 0) flag = own->call->evolve(own->memory, t_stop, it->y, &t, ARK_ONE_STEP);
+  if (went_ahead(own)) flag = -1;
   if (flag < 0 || sph_nvector_lost(it->y)) {
     a->h = fmin(h, left);
     return outcome(it, flag);
@@ -204,6 +237,7 @@ int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *a, double t_s
   a->h = a->t - it->time;
   if (!it->adaptive) return SPH_OK;
   own->call->get_num_err_test_fails(own->memory, &it->stats.rejected);
+  it->stats.rejected += it->rejected;
   if (a->h < a->limit * (1 - CLOSE)) a->bound = stopped ? SPH_BOUND_STOP : SPH_BOUND_ERROR;
   /* A controller that grows steps slowly should not see the one that was cut short. */
   double short_step = sph_controller_remembers(&it->controller) ? 0.9 : 0.2;
@@ -223,4 +257,52 @@ int sph_integrator_arkode_interpolate(sph_integrator *it, double t, N_Vector at)
   sph_integrator_arkode *own = it->own;
   it->rhs_status = 0;
   return outcome(it, own->call->get_dky(own->memory, it->def.relax ? fmin(t, own->end) : t, 0, at));
+}
+
+/* The steps that ARKODE took and is about to take, which it keeps to itself. */
+static int keep_steps(const sph_integrator *it, sph_integrator_arkode *own, sph_keep *keep)
+{
+  double ahead = own->ahead, last = own->last;
+  int failed = 0;
+  if (!sph_keep_reading(keep) && !own->fresh && !(ahead > 0))
+    failed = own->call->get_current_step(own->memory, &ahead) ||
+             own->call->get_last_step(own->memory, &last);
+  if (failed) return sph_error_set(keep->error, SPH_ERR_STATE, "%s has no steps", it->info.name);
+  sph_keep_real(keep, "ahead", 1, &ahead);
+  int status = sph_keep_real(keep, "last", 1, &last);
+  if (!sph_keep_reading(keep)) return status;
+  own->ahead = ahead;
+  own->last = last;
+  return status;
+}
+
+static int keep_rates(sph_integrator *it, sph_integrator_arkode *own, sph_keep *keep)
+{
+  const int reading = sph_keep_reading(keep);
+  const long n = sph_nvector_layout(it->y)->length;
+  int there = own->use_kept || (own->fsal && !it->def.relax && !own->fresh && own->rates &&
+                                own->rates_t == it->time);
+  int status = sph_keep_int(keep, "rates_kept", &there);
+  if (status || !there) return status;
+  if (reading && !own->kept) own->kept = sph_nvector_clone(it->y, "rates", keep->error);
+  if (reading && !own->kept) return SPH_ERR_MEMORY;
+  N_Vector rates = reading || own->use_kept ? own->kept : own->rates;
+  own->use_kept |= reading;
+  return sph_keep_real(keep, "rates", n, sph_nvector_data(rates));
+}
+
+int sph_integrator_arkode_keep(sph_integrator *it, sph_keep *keep)
+{
+  sph_integrator_arkode *own = it->own;
+  const int reading = sph_keep_reading(keep);
+  double past[3] = {own->past.error[0], own->past.error[1], own->past.h};
+  int status = reading ? sph_integrator_arkode_reject(it) : SPH_OK;
+  if (status) return status;
+  sph_keep_int(keep, "fresh", &own->fresh);
+  sph_keep_real(keep, "resume", 1, &own->resume);
+  sph_keep_real(keep, "end", 1, &own->end);
+  status = sph_keep_real(keep, "past", 3, past);
+  if (reading) own->past = (sph_controller_past){.error = {past[0], past[1]}, .h = past[2]};
+  if (!status) status = keep_rates(it, own, keep);
+  return status || !it->adaptive ? status : keep_steps(it, own, keep);
 }

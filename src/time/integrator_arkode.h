@@ -17,7 +17,16 @@ typedef struct sph_integrator_arkode {
   int listening;
   int fresh; /* the next attempt starts anew, with the step size of its plan */
   sph_controller_past past;
-  double resume;  /* > 0: start anew with this step, which a stop time had cut short [s] */
+  double resume; /* > 0: start anew with this step, which a stop time had cut short [s] */
+  double ahead;  /* > 0: of a checkpoint, the step that ARKODE had set out to take [s] */
+  double last;   /* ... and the one before it, as ARKODE has it [s] */
+  /* Rates at the end of a step that are those of its last stage, whose state may differ from that
+   * at the end in the last bits: they cannot be worked out again. */
+  int fsal;       /* the table has such a last stage */
+  N_Vector rates; /* where the last evaluation wrote to, borrowed; */
+  double rates_t; /* its time [s] */
+  N_Vector kept;  /* those of a checkpoint; NULL: none */
+  int use_kept;   /* the next evaluation is that one */
   double trial;   /* the step that is tried [s] */
   double end;     /* of the last step, as ARKODE has it: relaxed ones may miss a stop time [s] */
   void *kind;     /* what the kind of stepper keeps, its own */
@@ -43,5 +52,6 @@ int sph_integrator_arkode_start(sph_integrator *it);
 int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *attempt, double t_stop);
 int sph_integrator_arkode_reject(sph_integrator *it);
 int sph_integrator_arkode_interpolate(sph_integrator *it, double t, N_Vector at);
+int sph_integrator_arkode_keep(sph_integrator *it, sph_keep *keep);
 
 #endif

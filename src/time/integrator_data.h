@@ -25,6 +25,8 @@ typedef struct sph_stepper {
   /* The attempt does not count; y is it->before again. */
   int (*reject)(sph_integrator *it);
   int (*interpolate)(sph_integrator *it, double t, N_Vector at);
+  /* What it remembers between steps, once it was started; when reading y is there. */
+  int (*keep)(sph_integrator *it, sph_keep *keep);
 } sph_stepper;
 
 enum { SPH_SCHEME_NAME_MAX = 64 };
@@ -56,6 +58,7 @@ struct sph_integrator {
   const char *reason;    /* why the attempt is to be repeated, where no evaluation tells; or NULL */
   int bound;
   sph_step_stats stats;
+  long rejected; /* of them: before the checkpoint that it goes on from */
 };
 
 /* f(t, y), counted. */

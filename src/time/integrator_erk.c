@@ -26,11 +26,13 @@ static int repair(void *memory, ARKodeButcherTable table)
 }
 #endif
 
-static int set_table(void *memory, int row)
+static int set_table(sph_integrator_arkode *own, int row)
 {
   ARKodeButcherTable table = sph_integrator_table_butcher(row);
   if (!table) return -1;
-  int failed = ERKStepSetTable(memory, table) || repair(memory, table); /* it keeps a copy */
+  own->fsal = sph_integrator_table_fsal(table);
+  int failed =
+      ERKStepSetTable(own->memory, table) || repair(own->memory, table); /* it keeps a copy */
   ARKodeButcherTable_Free(table);
   return failed;
 }
@@ -41,7 +43,7 @@ static int create(sph_integrator *it, SUNContext context)
   if (!own) return SPH_ERR_MEMORY;
   own->memory = ERKStepCreate(sph_integrator_arkode_rhs, it->time, it->y, context);
   int status = sph_integrator_arkode_configure(it);
-  return !status && set_table(own->memory, it->row) ? SPH_ERR_MEMORY : status;
+  return !status && set_table(own, it->row) ? SPH_ERR_MEMORY : status;
 }
 
 const sph_stepper sph_integrator_erk = {
@@ -51,4 +53,5 @@ const sph_stepper sph_integrator_erk = {
     sph_integrator_arkode_attempt,
     sph_integrator_arkode_reject,
     sph_integrator_arkode_interpolate,
+    sph_integrator_arkode_keep,
 };

@@ -163,6 +163,12 @@ static int attempt(sph_integrator *it, sph_attempt *a, double t_stop)
   return status ? status : kind->failed;
 }
 
+static int keep(sph_integrator *it, sph_keep *keep)
+{
+  int status = sph_integrator_arkode_keep(it, keep);
+  return status ? status : sph_fast_keep(of(it)->fast, keep);
+}
+
 const sph_stepper sph_integrator_mri = {
     create,
     release,
@@ -170,4 +176,5 @@ const sph_stepper sph_integrator_mri = {
     attempt,
     sph_integrator_arkode_reject,
     sph_integrator_arkode_interpolate,
+    keep,
 };

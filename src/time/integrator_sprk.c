@@ -159,8 +159,13 @@ static int attempt(sph_integrator *it, sph_attempt *a, double t_stop)
 }
 
 const sph_stepper sph_integrator_sprk = {
-    create,      release, sph_integrator_arkode_start, attempt, sph_integrator_arkode_reject,
+    create,
+    release,
+    sph_integrator_arkode_start,
+    attempt,
+    sph_integrator_arkode_reject,
     interpolate,
+    sph_integrator_arkode_keep,
 };
 
 #else

@@ -1,8 +1,10 @@
 /* The stepper of sph_scheme, built-in ones and users': rates, work arrays, dense output. */
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "integrator_data.h"
+#include "keep.h"
 #include "memory.h"
 #include "nvector.h"
 #include "scheme.h"
@@ -155,4 +157,24 @@ static int interpolate(sph_integrator *it, double t, N_Vector at)
   return SPH_OK;
 }
 
-const sph_stepper sph_ode_stepper = {create, release, start, attempt, reject, interpolate};
+/* The rates that the next step starts with, and what the scheme left in its work arrays. */
+static int keep(sph_integrator *it, sph_keep *keep)
+{
+  stepping *own = it->own;
+  sph_ode *ode = &own->ode;
+  const long n = sph_nvector_layout(it->y)->length;
+  sph_keep_integer(keep, "step", 1, &ode->step);
+  sph_keep_real(keep, "h", 1, &ode->h);
+  sph_keep_real(keep, "h_last", 1, &ode->h_last);
+  int status = sph_keep_int(keep, "ended", &own->ended);
+  if (!status)
+    status = sph_keep_real(keep, "rates", n, sph_nvector_data(own->ended ? own->f1 : own->f0));
+  for (int k = 0; k < it->scheme->work; k++) {
+    char name[32];
+    snprintf(name, sizeof name, "work_%d", k);
+    status = sph_keep_real(keep, name, n, own->data[k]);
+  }
+  return status;
+}
+
+const sph_stepper sph_ode_stepper = {create, release, start, attempt, reject, interpolate, keep};

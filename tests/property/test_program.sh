@@ -44,10 +44,10 @@ fails() { # name, what the message says, arguments...
 
 run 0 "$sphode" --version && grep -qx "sphode [0-9.]*" out
 ok $? "--version"
-run 0 "$sphode" --help && [[ ! -s err ]] && for c in run check info plot work-precision; do grep -q "^  $c " out || break; done
+run 0 "$sphode" --help && [[ ! -s err ]] && for c in run restart check info plot work-precision; do grep -q "^  $c " out || break; done
 ok $? "--help names the commands"
 good=0
-for c in run check info plot work-precision; do run 0 "$sphode" $c --help && grep -q "^Usage: sphode $c " out || good=1; done
+for c in run restart check info plot work-precision; do run 0 "$sphode" $c --help && grep -q "^Usage: sphode $c " out || good=1; done
 ok $good "each command has a help"
 usage "no command" "no command"
 usage "an unknown command" "'rnu' is no command" rnu
@@ -145,8 +145,10 @@ touch d1/notes.txt d1/snapshot_0099.hdf
 run 0 "$sphode" run "$dam" "${small[@]}" -o d1 --force -q && [[ ! -s out && ! -s err && -e d1/notes.txt && ! -e d1/snapshot_0099.hdf ]]
 ok $? "--force writes over it, leaves what is not a run's, and --quiet says nothing"
 rm d1/summary.json
+fails "nor is one that can go on" "d1 holds a run that was interrupted; sphode restart d1" run "$dam" "${small[@]}" -o d1
+rm d1/checkpoint_*
 run 0 "$sphode" run "$dam" "${small[@]}" -o d1 -q
-ok $? "a run that was killed is written over"
+ok $? "a run that was killed before its first checkpoint is written over"
 run 0 "$sphode" run "$dam" "${small[@]}" -o d2 --threads 2 -q && cmp d1/series.csv d2/series.csv
 ok $? "two threads give the same bits"
 run 3 "$sphode" run "$dam" "${small[@]}" -o d3 --strict --set compare.0.bar=1e-9

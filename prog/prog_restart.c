@@ -1,0 +1,123 @@
+/* sphode restart: a run goes on from its last good checkpoint. */
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "prog_job.h"
+
+static void forget(prog_job *j)
+{
+  sph_sim_free(j->sim);
+  sph_case_free(j->c);
+  j->sim = NULL;
+  j->c = NULL;
+}
+
+/* The case of the checkpoint with what is set now besides; with `last`, too. */
+static sph_case *case_of(const prog_job *j, const sph_checkpoint_info *info, const char *last,
+                         sph_error *error)
+{
+  const char *set[2 * PROG_SETS + 1];
+  int n = 0;
+  for (int k = 0; k < info->sets && n < PROG_SETS; k++) set[n++] = info->set[k];
+  for (int k = 0; k < j->o->sets; k++) set[n++] = j->o->set[k];
+  if (last) set[n++] = last;
+  const char *text = info->case_text ? info->case_text : "";
+  return sph_case_read_text(info->case_path, text, strlen(text), n, set, error);
+}
+
+static int set_end(prog_job *j, const sph_checkpoint_info *info)
+{
+  char until[200];
+  sph_error error = {0};
+  j->end = sph_case_end(j->c);
+  if (!j->o->until) return PROG_OK;
+  snprintf(until, sizeof until, "run.end=%s", j->o->until);
+  sph_case *other = case_of(j, info, until, &error);
+  if (!other) return sph_prog_error(PROG_FAILED, "--until: %s", error.text);
+  j->end = sph_case_end(other);
+  sph_case_free(other);
+  return PROG_OK;
+}
+
+static void compare_versions(const prog_job *j, const sph_checkpoint_info *info)
+{
+  if (info->same && !strcmp(info->isa, sph_sim_isa(j->sim))) return;
+  sph_prog_error(PROG_OK,
+                 "it was written by sphode %s with SUNDIALS %s on %s: from here on, bits may "
+                 "differ from those of a run without interruption",
+                 info->version, info->sundials, info->isa);
+}
+
+/* A run that just goes on is still the one of its first command line. */
+static void set_command(prog_job *j, const sph_checkpoint_info *info)
+{
+  const int other = j->o->until || j->o->sets > 0;
+  j->command = j->o->command;
+  if (!info->command) return;
+  snprintf(j->line, sizeof j->line, "%s%s%s", info->command, other ? "; " : "",
+           other ? j->o->command : "");
+  j->command = j->line;
+}
+
+static int has_ended(const prog_job *j) { return !faccessat(j->held, "summary.json", F_OK, 0); }
+
+/* -1: the file is of no use, told; else an exit status. */
+static int go_on_from(prog_job *j, const char *path)
+{
+  sph_checkpoint_info info;
+  sph_error error = {0};
+  if (sph_checkpoint_info_read(path, &info, &error)) {
+    sph_prog_error(PROG_FAILED, "%s", error.text);
+    return -1;
+  }
+  int status = PROG_OK;
+  if (!info.case_path || !info.case_text)
+    status = sph_prog_error(PROG_FAILED, "%s: it is not of a case file", path);
+  if (!status && !(j->c = case_of(j, &info, NULL, &error)))
+    status = sph_prog_error(PROG_FAILED, "%s", error.text);
+  if (!status) status = set_end(j, &info);
+  /* One that came to its end may have been killed before it was concluded. */
+  if (!status && (info.time > j->end || (info.time == j->end && has_ended(j))))
+    status = sph_prog_error(PROG_FAILED, "%s is at t = %.6g s, its end is %.6g s; --until TIME %s",
+                            path, info.time, j->end, "goes on, as 0.1s");
+  if (!status) set_command(j, &info);
+  if (!status) status = sph_prog_run_build(j);
+  if (!status) status = sph_prog_run_outputs(j);
+  if (!status && sph_checkpoint_read(j->sim, path)) {
+    sph_prog_error(PROG_FAILED, "%s", sph_sim_error(j->sim));
+    forget(j);
+    status = -1;
+  }
+  if (!status && j->o->sets > 0) sph_sim_changed(j->sim);
+  if (!status) compare_versions(j, &info);
+  if (!status) unlinkat(j->held, "summary.json", 0); /* it goes on */
+  if (!status && !j->o->quiet)
+    fprintf(stderr, "going on from %s: t = %.6g s, step %ld\n", path, info.time, info.step);
+  sph_checkpoint_info_free(&info);
+  return status;
+}
+
+static int prepare(prog_job *j)
+{
+  char path[4096];
+  int status = -1, k = 0;
+  if (snprintf(j->directory, sizeof j->directory, "%s", j->o->what) >= (int)sizeof j->directory)
+    return sph_prog_error(PROG_FAILED, "%.60s...: path too long", j->o->what);
+  j->held = sph_prog_directory_hold(j->directory);
+  if (j->held < 0) return PROG_FAILED;
+  for (; status < 0 && sph_checkpoint_find(j->directory, k, path, sizeof path); k++)
+    status = go_on_from(j, path);
+  if (status >= 0) return status;
+  return sph_prog_error(PROG_FAILED,
+                        k ? "%s: none of its checkpoints can be used"
+                          : "%s holds no checkpoint (checkpoint_*.hdf)",
+                        j->directory);
+}
+
+int sph_prog_restart(const prog_options *o)
+{
+  prog_job j = {.o = o, .held = -1};
+  return sph_prog_run_finish(&j, prepare(&j));
+}

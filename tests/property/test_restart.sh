@@ -1,0 +1,197 @@
+#!/usr/bin/env bash
+# sphode restart: killed at random moments, stopped, out of time, out of space, damaged: the run that goes on leaves the
+# files of the one that was never interrupted, byte for byte.
+sphode=${SPHODE:-$BUILDDIR/sphode}
+stage=$(mktemp -d) || exit 99
+trap 'rm -rf "$stage"' EXIT
+cd "$stage" || exit 99
+export OMP_WAIT_POLICY=passive
+every=20 # steps between checkpoints
+kills=20
+[[ -z $SPHODE_TEST_LONG ]] || kills=200
+RANDOM=${SPHODE_TEST_SEED:-$$}
+sed '/^compare:/,$d' "$SRCDIR/cases/dam-break-2d.yml" >dam.yml
+# Snapshots hold the command line: each run is in a directory of its own, and writes to out there.
+case=(../dam.yml -o out --set "parameters.dx=H/20" --set "run.end=6*T" --set "output.snapshots=T/3" --set "output.series=T/40"
+  --set "checkpoint.steps=$every" -q)
+
+count=0
+ok() { # 0 or not, name
+  count=$((count + 1))
+  if [[ $1 == 0 ]]; then echo "ok $count - $2"; else echo "not ok $count - $2"; fi
+}
+# run STATUS DIR COMMAND...: there; standard output to out, errors to err; true where it exits with STATUS.
+run() {
+  local wanted=$1 dir=$2 status
+  shift 2
+  mkdir -p "$dir"
+  (cd "$dir" && exec "$@") >out 2>err
+  status=$?
+  [[ $status == "$wanted" ]] && return
+  echo "# exit status $status, wanted $wanted: $*"
+  sed 's/^/# /' out err
+  return 1
+}
+results() { (cd "$1/out" && ls -- snapshot_* walls_* ./*.series series.csv); }
+series() { # DIR: all time series as in whole
+  local file
+  [[ $(results whole) == "$(results "$1")" ]] || { echo "# $1 has other files"; return 1; }
+  for file in snapshot.hdf.series walls.hdf.series series.csv; do cmp "whole/out/$file" "$1/out/$file" || return 1; done
+}
+same() { # DIR: all results
+  local file
+  series "$1" || return 1
+  for file in $(results whole); do cmp "whole/out/$file" "$1/out/$file" || return 1; done
+}
+last_step() { tail -n 1 "$1/out/series.csv" 2>/dev/null | cut -d, -f2; }
+newest() { ls "$1"/out/checkpoint_*.hdf 2>/dev/null | tail -n 1; }
+step_of() { local name=${1##*_}; name=${name%.hdf}; echo $((10#$name)); }
+
+run 0 whole "$sphode" run "${case[@]}" && [[ -n $(newest whole) ]]
+ok $? "a run without interruption"
+run 0 none "$sphode" run "${case[@]}" --set checkpoint.keep=0 && [[ -z $(newest none) ]] && series none
+ok $? "checkpoints change nothing"
+
+# ---- kill -9
+
+# Lives of random length until it is done; then another one, until there were enough kills.
+lost=0 killed=0 runs=0 bad=0
+while ((killed < kills && bad == 0)); do
+  dir=kill$((runs++)) over=0
+  mkdir $dir
+  while ((!over)); do
+    cd $dir || exit 99
+    if [[ -n $(cd .. && newest $dir) ]]; then
+      "$sphode" restart out -q >../out 2>../err &
+    else
+      "$sphode" run "${case[@]}" >../out 2>../err &
+    fi
+    job=$!
+    cd ..
+    if ((killed < kills)); then
+      sleep "0.$((RANDOM % 3))$((RANDOM % 10))$((RANDOM % 10))"
+      kill -9 $job 2>/dev/null && killed=$((killed + 1))
+    fi
+    wait $job 2>/dev/null
+    status=$?
+    ((status == 0)) && over=1
+    if ((status != 0 && status != 137)); then
+      sed 's/^/# /' err
+      bad=1 over=1
+    fi
+    # At most one interval lies behind the newest checkpoint.
+    if [[ -n $(newest $dir) && $(last_step $dir) =~ ^[0-9]+$ ]]; then
+      behind=$(($(last_step $dir) - $(step_of "$(newest $dir)")))
+      ((behind > lost)) && lost=$behind
+    fi
+  done
+  ((bad)) || same $dir || bad=1
+  ((bad)) || rm -rf $dir
+done 2>/dev/null
+echo "# $killed kills in $runs runs; at most $lost steps were made again"
+ok $bad "kill -9 at $kills random moments: all files as without"
+((lost <= every))
+ok $? "and never more than an interval was lost"
+
+# ---- stopped
+
+mkdir term
+(cd term && exec "$sphode" run "${case[@]}" 2>/dev/null) &
+job=$!
+tries=0
+until [[ $(wc -l 2>/dev/null <term/out/series.csv) -gt 10 || $((tries++)) -gt 600 ]]; do sleep 0.01; done 2>/dev/null
+run 1 term "$sphode" restart out && grep -q "another run is writing to out" err
+ok $? "a directory in use is refused"
+kill -TERM $job
+wait $job
+[[ $? == 143 && $(step_of "$(newest term)") -ge $(last_step term) && $(step_of "$(newest term)") -lt 390 ]]
+ok $? "SIGTERM ends a run behind a checkpoint"
+rm term/out/summary.json
+run 1 term "$sphode" run "${case[@]}" && grep -q "holds a run that was interrupted; sphode restart out goes on" err
+ok $? "and what can go on is not written over"
+for dir in set until other; do cp -r term $dir; done
+run 0 term "$sphode" restart out -q --threads 2 && same term
+ok $? "it goes on with two threads"
+run 1 term "$sphode" restart out -q && grep -q "its end is .*--until TIME" err
+ok $? "a run at its end says so"
+rm term/out/summary.json
+run 0 term "$sphode" restart out -q && [[ -s term/out/summary.json ]] && same term
+ok $? "one that was killed there is concluded"
+run 0 until "$sphode" restart out -q --until 0.25s && tail -n 1 until/out/series.csv | grep -q "^0.2[45]" &&
+  cmp <(head -n 150 whole/out/series.csv) <(head -n 150 until/out/series.csv)
+ok $? "--until another time"
+run 0 set "$sphode" restart out -q --set "output.snapshots=T/6" --set terms.viscosity-artificial.alpha=0.2 &&
+  [[ $(ls set/out/snapshot_* | wc -l) -gt $(ls whole/out/snapshot_* | wc -l) ]] && ! cmp -s set/out/series.csv whole/out/series.csv &&
+  grep -q "alpha=0.2" set/out/case.yml
+ok $? "--set changes what follows"
+run 1 other "$sphode" restart out --set spacing=1cm -q && grep -q "of another simulation" err
+ok $? "and refuses what makes another simulation"
+run 4 limit "$sphode" run "${case[@]}" --set run.time_limit=0.3s
+status=$? lives=1
+until [[ $status != 0 || $lives == 100 ]]; do
+  (cd limit && exec "$sphode" restart out -q >../out 2>../err)
+  status=$(($? - 4)) lives=$((lives + 1))
+done
+[[ $status == -4 ]] && series limit
+ok $? "a time limit stops it in time, with exit status 4, and it goes on"
+
+# ---- damaged
+
+run 4 base "$sphode" run "${case[@]}" --set run.time_limit=0.3s
+sed -i 's/X/X/' base/out/case.yml
+[[ $(ls base/out/checkpoint_* | wc -l) == 2 ]]
+ok $? "two checkpoints stay"
+damaged() { # name, what it says, command
+  rm -rf hurt
+  cp -r base hurt
+  file=$(newest hurt)
+  eval "$3"
+  run 0 hurt "$sphode" restart out -q --set run.time_limit=1h --set run.end=6*T && grep -q "$(basename "$file"): .*$2" err
+  ok $? "$1: the one before is used"
+}
+damaged "a damaged byte" "its checksum is wrong" 'printf X | dd of="$file" bs=1 seek=5000 conv=notrunc 2>/dev/null'
+damaged "a file cut short" "it was cut short" 'truncate -s -100 "$file"'
+damaged "an empty file" "no checkpoint of sphode" ': >"$file"'
+damaged "another format" "of format 9; this sphode .* reads format 1" 'sed -i "2s/format 1/format 9/" "$file"'
+damaged "another file" "no checkpoint of sphode" 'cp dam.yml "$file"'
+damaged "a damaged header" "header is damaged" 'printf X | dd of="$file" bs=1 seek=300 conv=notrunc 2>/dev/null'
+rm -rf hurt
+cp -r base hurt
+for file in hurt/out/checkpoint_*; do truncate -s 1000 "$file"; done
+run 1 hurt "$sphode" restart out -q && grep -q "none of its checkpoints can be used" err && [[ $(grep -c "cut short" err) == 2 ]]
+ok $? "without a good one it fails, and says why of each"
+rm -rf hurt
+cp -r base hurt
+head -c 100 base/out/series.csv >hurt/out/series.csv
+run 1 hurt "$sphode" restart out -q && grep -q "series.csv has 100 bytes, had [0-9]* then: rows are missing" err
+ok $? "rows that are missing are told"
+run 1 . "$sphode" restart none/out && grep -q "none/out holds no checkpoint" err
+ok $? "a directory without checkpoints"
+run 1 . "$sphode" restart nowhere && grep -q "nowhere: No such file" err
+ok $? "no directory"
+
+# ---- no space
+
+# Files of at most this size, larger than snapshots, smaller than checkpoints: writes fail as on a full disk.
+size=$(stat -c %s "$(newest base)")
+mkdir full
+(cd full && trap '' XFSZ && ulimit -f $((size / 1024 - 1)) && exec "$sphode" run "${case[@]}" >../out 2>../err)
+[[ $? == 1 ]] && grep -q "cannot write out/checkpoint_.*hdf ([0-9]* bytes): File too large" err && ! ls full/out/*.tmp 2>/dev/null
+ok $? "a checkpoint that does not fit ends the run, told"
+cp -r base full2
+before=$(cksum full2/out/checkpoint_*)
+(cd full2 && trap '' XFSZ && ulimit -f $((size / 1024 - 1)) && exec "$sphode" restart out -q --set run.time_limit=1h >../out 2>../err)
+[[ $? == 1 ]] && grep -q "cannot write" err && grep -q "restart out goes on from" err && [[ $before == "$(cksum full2/out/checkpoint_*)" ]]
+ok $? "and the state before is kept"
+run 0 full2 "$sphode" restart out -q --set run.time_limit=1h
+ok $? "with space again it goes on"
+if [[ $(id -u) != 0 ]]; then
+  cp -r base shut
+  chmod a-w shut/out
+  run 1 shut "$sphode" restart out -q && grep -q "cannot write out" err
+  ok $? "an unwritable directory"
+  chmod u+w shut/out
+else
+  ok 0 "an unwritable directory # SKIP root may write anywhere"
+fi
+echo 1..$count
