@@ -8,6 +8,7 @@
 #include <arkode/arkode_butcher_erk.h>
 #include <arkode/arkode_erkstep.h>
 #include <arkode/arkode_mristep.h>
+#include <limits.h>
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_nonlinearsolver.h>
@@ -25,6 +26,13 @@
 #define SPH_SUNDIALS(Step, function) ARKode##function
 #else
 #define SPH_SUNDIALS(Step, function) Step##function
+#endif
+
+/* LSRKStep's flag for a step that would take more stages than it may. */
+#if SPH_SUNDIALS_NUMBER >= 70200
+#define SPH_SUNDIALS_MANY_STAGES ARK_MAX_STAGE_LIMIT_FAIL
+#else
+#define SPH_SUNDIALS_MANY_STAGES INT_MIN /* none has that */
 #endif
 
 /* These functions, for steppers that differ in nothing else; NULL: that one has none. */

@@ -26,6 +26,13 @@ static sph_case_node *descend(const sph_case_node *node, const char *word)
   return child;
 }
 
+/* A mapping, as "conduction:" with nothing behind it is one, too. */
+static int may_have_keys(sph_case_node *node)
+{
+  if (node->kind == SPH_CASE_SCALAR && !node->quoted && !node->text[0]) node->kind = SPH_CASE_MAP;
+  return node->kind == SPH_CASE_MAP;
+}
+
 /* Takes the content of `given`, keeps the place among its siblings. */
 static void replace(sph_case_node *node, sph_case_node *given)
 {
@@ -45,7 +52,7 @@ static int put(sph_case *c, const char *set, char *path, sph_case_node *given)
     dot = strchr(word, '.');
     if (dot) *dot++ = 0;
     sph_case_node *child = descend(node, word);
-    if (!child && node->kind != SPH_CASE_MAP)
+    if (!child && !may_have_keys(node))
       return sph_error_set(c->error, SPH_ERR_PARSE, "%s: --set %s: there is no '%s'", c->path, set,
                            word);
     if (!child) {

@@ -132,6 +132,10 @@ static int outcome(sph_integrator *it, int flag)
     it->reason = "no step near it keeps the energy";
     return SPH_RETRY;
   }
+  if (flag == SPH_SUNDIALS_MANY_STAGES) {
+    it->reason = "it takes more than 200 stages";
+    return SPH_RETRY;
+  }
   int status = flag == ARK_MEM_FAIL ? SPH_ERR_MEMORY : SPH_ERR_STEP;
   return sph_integrator_fail(it, status, own->text[0] ? own->text : "SUNDIALS failed");
 }

@@ -159,15 +159,19 @@ static void defaults_are_filled_in(void **state)
 static void set_replaces_and_adds(void **state)
 {
   const char *const set[] = {"spacing=2 cm", "kernel.h_over_dx=1.7",
-                             "groups.water.shapes.0.box.upper=[0.2, 0.3]", "title=Two words"};
+                             "groups.water.shapes.0.box.upper=[0.2, 0.3]", "title=Two words",
+                             "terms.pressure.part=slow"};
   sph_error error = {0};
   (void)state;
-  sph_case *c = sph_case_read_text("small.yml", small, strlen(small), 4, set, &error);
+  sph_case *c = sph_case_read_text("small.yml", small, strlen(small), 5, set, &error);
   if (!c) fail_msg("%s", error.text);
   assert_true(sph_case_reader_number(c->root, "spacing", 0) == 0.02);
   assert_true(sph_case_reader_number(sph_case_reader_find(c->root, "kernel"), "h_over_dx", 0) ==
               1.7);
   assert_string_equal(sph_case_title(c), "Two words");
+  const sph_case_node *terms = sph_case_reader_find(c->root, "terms");
+  assert_string_equal(sph_case_reader_text(sph_case_reader_find(terms, "pressure"), "part", "none"),
+                      "slow");
   assert_true(!strncmp(sph_case_text(c), "# --set spacing=2 cm\n", 21));
   sph_case_free(c);
 }

@@ -186,6 +186,29 @@ static void failures_are_repeated_and_told(void **state)
   }
 }
 
+/* 200 stages serve lambda dt up to 26000 (RKC) or 20100 (RKL): longer steps are halved. */
+static void steps_of_too_many_stages_are_halved(void **state)
+{
+  (void)state;
+  if (!have_rows()) return;
+  for (int k = 0; k < 2; k++) {
+    stiff s;
+    make(&s, 1e6);
+    s.o.limit[SPH_BOUND_CFL] = 1;
+    ode_start(&s.o, &(sph_integrator_def){.method = method[k], .tolerance = -1});
+    if (ode_run(&s.o, 1)) fail_msg("%s", s.o.error.text);
+    const sph_step_stats *stats = sph_integrator_stats(s.o.it);
+    assert_true(stats->retries > 0 && stats->dt_largest < (k ? 0.0201 : 0.0261));
+    assert_true(ode_error(&s.o, 1, s.o.y) < 1e-3);
+    ode_end(&s.o);
+    make(&s, 1e6);
+    ode_start(&s.o, &(sph_integrator_def){.method = method[k], .dt_fixed = 0.1});
+    assert_int_equal(ode_run(&s.o, 1), SPH_ERR_STEP);
+    assert_non_null(strstr(s.o.error.text, "more than 200 stages"));
+    ode_end(&s.o);
+  }
+}
+
 static void reset_is_a_new_start(void **state)
 {
   (void)state;
@@ -292,6 +315,7 @@ int main(void)
       cmocka_unit_test(too_low_a_bound_is_unstable),
       cmocka_unit_test(errors_are_held),
       cmocka_unit_test(failures_are_repeated_and_told),
+      cmocka_unit_test(steps_of_too_many_stages_are_halved),
       cmocka_unit_test(reset_is_a_new_start),
       cmocka_unit_test(dense_output_is_as_good_as_the_steps),
       cmocka_unit_test(stop_times_and_dense_output),
