@@ -442,13 +442,37 @@ static void hostile(void **state)
       }
 }
 
+/* What is not finite stays where it is: within the support. */
+static void spreads_no_further(void **state)
+{
+  (void)state;
+  scene s = scene_make(2, 0, 0);
+  const long bad = s.c.n / 2;
+  s.field[2][bad] = NAN;
+  assert_int_equal(sph_operator_gradient(s.op, "corrected", s.field[2], s.out, NULL), 0);
+  assert_int_equal(sph_operator_mls(s.op, 2, s.field[2], s.out[2], NULL, NULL, NULL), 0);
+  assert_int_equal(sph_operator_laplacian(s.op, "fatehi-manzari", NULL, s.field[2], s.out[3], NULL),
+                   0);
+  for (long i = 0; i < s.c.n; i++) {
+    const double r = hypot(s.c.x[0][i] - s.c.x[0][bad], s.c.x[1][i] - s.c.x[1][bad]);
+    for (int o = 0; o < 4; o++)
+      assert_int_equal(isfinite(s.out[o][i]) != 0, r >= reach[1] * s.c.dx);
+  }
+  scene_free(&s);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(constants),  cmocka_unit_test(linear),
-      cmocka_unit_test(quadratic),  cmocka_unit_test(vectors),
-      cmocka_unit_test(pairs),      cmocka_unit_test(bad_definitions),
-      cmocka_unit_test(bad_points), cmocka_unit_test(bad_arguments),
-      cmocka_unit_test(singular),   cmocka_unit_test(hostile)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(constants),
+                                     cmocka_unit_test(linear),
+                                     cmocka_unit_test(quadratic),
+                                     cmocka_unit_test(vectors),
+                                     cmocka_unit_test(pairs),
+                                     cmocka_unit_test(bad_definitions),
+                                     cmocka_unit_test(bad_points),
+                                     cmocka_unit_test(bad_arguments),
+                                     cmocka_unit_test(spreads_no_further),
+                                     cmocka_unit_test(singular),
+                                     cmocka_unit_test(hostile)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
