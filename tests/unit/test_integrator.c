@@ -43,14 +43,16 @@ static double error_of(problem make, const char *name, double t_end, int stops, 
 }
 
 /* Steps are halved until the error nears rounding or n_max is reached: of the last two slopes
- * the better. */
+ * the better.  Before SUNDIALS 7.3 the coefficients of verner-9-5-6 end behind 14 digits, and are as
+ * large as 208. */
 static void assert_order(problem make, const sph_integrator_info *info, double t_end, int stops,
                          int n_max)
 {
+  const double floor = strcmp(info->name, "erk:verner-9-5-6") ? 1e-12 : 1e-11;
   double error = error_of(make, info->name, t_end, stops, 2), slope[2] = {0, 0};
   for (int n = 4; n <= n_max; n *= 2) {
     double finer = error_of(make, info->name, t_end, stops, n);
-    if (finer < 1e-12 && n > 4) break;
+    if (finer < floor && n > 4) break;
     slope[0] = slope[1];
     slope[1] = log2(error / finer);
     error = finer;
