@@ -1,5 +1,6 @@
 /* ARKODE's explicit multirate schemes: the slow part by MRIStep, the fast part between slow stages
  * by fast.c. */
+#include <math.h>
 #include <string.h>
 
 #include "fast.h"
@@ -49,7 +50,12 @@ typedef struct multirate {
   sph_fast *fast;
   int failed;    /* status of the fast part in this attempt */
   N_Vector from; /* of the last reset: where the next evolve starts, whatever its y; borrowed */
+  N_Vector rates[2], piece; /* rates at the ends of a step, for dense output; NULL: ARKODE's own */
+  double begin, end;        /* of that step; NAN: of none */
 } multirate;
+
+/* In 7.0 and 7.1 what MRIStep interpolates with may lack the fast rates (erk45a). */
+enum { DENSE = SPH_SUNDIALS_NUMBER < 70000 || SPH_SUNDIALS_NUMBER >= 70200 };
 
 static multirate *of(const sph_integrator *it)
 {
@@ -120,6 +126,17 @@ static int set_coupling(void *memory, const char *name)
   return failed;
 }
 
+static int make_rates(sph_integrator *it, multirate *kind)
+{
+  N_Vector *to[3] = {&kind->rates[0], &kind->rates[1], &kind->piece};
+  kind->begin = kind->end = NAN;
+  for (int k = 0; k < 3 && !DENSE; k++) {
+    *to[k] = sph_nvector_clone(it->y, "rates for dense output", it->problem.error);
+    if (!*to[k]) return SPH_ERR_MEMORY;
+  }
+  return SPH_OK;
+}
+
 static int create(sph_integrator *it, SUNContext context)
 {
   if (!it->problem.rhs_piece)
@@ -132,7 +149,7 @@ static int create(sph_integrator *it, SUNContext context)
   multirate *kind = own->kind = SPH_NEW(multirate, 1, "a multirate integrator", it->problem.error);
   if (!kind) return SPH_ERR_MEMORY;
   kind->fast = sph_fast_create(it, it->info.order);
-  if (!kind->fast || make_inner(it, context, kind)) return SPH_ERR_MEMORY;
+  if (!kind->fast || make_inner(it, context, kind) || make_rates(it, kind)) return SPH_ERR_MEMORY;
   own->memory = MRIStepCreate(slow, NULL, it->time, it->y, kind->inner, context);
   int status = sph_integrator_arkode_configure(it);
   return !status && set_coupling(own->memory, it->info.name) ? SPH_ERR_MEMORY : status;
@@ -146,6 +163,9 @@ static void release(sph_integrator *it)
   if (!kind) return;
   if (kind->inner) MRIStepInnerStepper_Free(&kind->inner);
   sph_fast_free(kind->fast);
+  for (int k = 0; k < 2; k++)
+    if (kind->rates[k]) N_VDestroy(kind->rates[k]);
+  if (kind->piece) N_VDestroy(kind->piece);
   sph_memory_free(kind);
 }
 
@@ -163,6 +183,39 @@ static int attempt(sph_integrator *it, sph_attempt *a, double t_stop)
   return status ? status : kind->failed;
 }
 
+/* f_slow + f_fast */
+static int rates(sph_integrator *it, double t, N_Vector y, N_Vector f)
+{
+  multirate *kind = of(it);
+  int failed = sph_integrator_arkode_piece(it, SPH_PIECE_EXPLICIT, t, y, f);
+  if (!failed) failed = sph_fast_rhs(kind->fast, t, y, kind->piece);
+  if (!failed) N_VLinearSum(1, f, 1, kind->piece, f);
+  return failed;
+}
+
+/* Cubic Hermite interpolation as in ode.c, s = (t - t0)/h:
+ *   y0 + s (y1 - y0) + s (s - 1) ((1 - 2 s)(y1 - y0) + h ((s - 1) f0 + s f1)) */
+static int interpolate(sph_integrator *it, double t, N_Vector at)
+{
+  multirate *kind = of(it);
+  if (DENSE) return sph_integrator_arkode_interpolate(it, t, at);
+  int status = SPH_OK;
+  if (kind->begin != it->previous || kind->end != it->time) {
+    kind->begin = kind->end = NAN;
+    status = rates(it, it->previous, it->before, kind->rates[0]);
+    if (!status) status = rates(it, it->time, it->y, kind->rates[1]);
+    if (status) return status;
+    kind->begin = it->previous;
+    kind->end = it->time;
+  }
+  const double h = it->time - it->previous, s = (t - it->previous) / h, q = s * (s - 1);
+  const double rise = s + q * (1 - 2 * s);
+  N_VLinearSum(1 - rise, it->before, rise, it->y, at);
+  N_VLinearSum(1, at, h * q * (s - 1), kind->rates[0], at);
+  N_VLinearSum(1, at, h * q * s, kind->rates[1], at);
+  return SPH_OK;
+}
+
 static int keep(sph_integrator *it, sph_keep *keep)
 {
   int status = sph_integrator_arkode_keep(it, keep);
@@ -170,11 +223,5 @@ static int keep(sph_integrator *it, sph_keep *keep)
 }
 
 const sph_stepper sph_integrator_mri = {
-    create,
-    release,
-    start,
-    attempt,
-    sph_integrator_arkode_reject,
-    sph_integrator_arkode_interpolate,
-    keep,
+    create, release, start, attempt, sph_integrator_arkode_reject, interpolate, keep,
 };
