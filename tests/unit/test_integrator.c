@@ -43,8 +43,8 @@ static double error_of(problem make, const char *name, double t_end, int stops, 
 }
 
 /* Steps are halved until the error nears rounding or n_max is reached: of the last two slopes
- * the better.  Before SUNDIALS 7.3 the coefficients of verner-9-5-6 end behind 14 digits, and are as
- * large as 208. */
+ * the better.  Before SUNDIALS 7.3 the coefficients of verner-9-5-6 end behind 14 digits, and are
+ * as large as 208. */
 static void assert_order(problem make, const sph_integrator_info *info, double t_end, int stops,
                          int n_max)
 {
