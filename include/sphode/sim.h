@@ -71,7 +71,8 @@ SPH_API void sph_sim_set_progress(sph_sim *sim, int (*progress)(void *ctx, sph_s
  * evaluated, also about explicit terms that make steps far shorter than sound does. */
 SPH_API int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size);
 
-/* Runs to time t_end [s], writing outputs; or one step.  Returns a status. */
+/* Runs to time t_end [s], writing outputs; or one step.  Callbacks (terms, outputs, events,
+ * modifiers, progress) begin no other.  Returns a status. */
 SPH_API int sph_sim_run(sph_sim *sim, double t_end);
 SPH_API int sph_sim_step(sph_sim *sim);
 /* Fields were written between steps: the integrator starts anew from them, with a step no longer

@@ -15,6 +15,7 @@
 #include "integrator_table.h"
 #include "memory.h"
 #include "sim_prepare.h"
+#include "sim_run.h"
 #include "sim_transposed.h"
 
 enum { STAGES = 32 };
@@ -397,6 +398,7 @@ static int run_to(sph_adjoint *a, double t_end, int back)
   if (!(isfinite(t_end) && t_end > sim->time && (t_end - sim->time) / a->h < 1e9))
     return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "adjoint: run to %g s; right is finite and > %g s",
                         t_end, sim->time);
+  if (sph_sim_run_enter(sim)) return sim->error.status;
   N_VScale(1, sim->y, a->y);
   a->value = 0;
   for (int k = 0; k < a->n; k++) a->slope[k] = back ? 0 : NAN;
@@ -408,6 +410,7 @@ static int run_to(sph_adjoint *a, double t_end, int back)
   if (!status) arrive(a, t_end, sim->frame);
   sim->shown = sim->y;
   if (status) sim->time = r.t0;
+  sph_sim_run_leave(sim);
   sph_memory_free(r.state);
   sph_memory_free(r.segment);
   return status;

@@ -223,10 +223,12 @@ int sph_sensitivity_run(sph_sensitivity *s, double t_end)
   if (!(isfinite(t_end) && t_end >= t))
     return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "sensitivities: run to %g s; right is >= %g s",
                         t_end, t);
-  int status = SPH_OK;
+  int status = sph_sim_run_enter(sim);
+  if (status) return status;
   s->started = 1;
   while (!status && sph_integrator_time(s->integrator) < t_end)
     status = sph_integrator_step(s->integrator, t_end);
+  sph_sim_run_leave(sim);
   show(s);
   return status;
 }

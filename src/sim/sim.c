@@ -362,10 +362,13 @@ void sph_sim_free(sph_sim *sim)
 int sph_sim_step(sph_sim *sim)
 {
   double begin = sph_clock();
-  int status = sph_sim_prepare(sim);
+  int status = sph_sim_run_enter(sim);
+  if (status) return status;
+  status = sph_sim_prepare(sim);
   if (!status) status = sph_sim_parts_fit(sim);
   if (!status)
     status = sph_sim_run_step(sim, sim->time + 1e9 * fmin(sim->limit[SPH_BOUND_CFL], 1e9), 0);
+  sph_sim_run_leave(sim);
   if (sim) sim->seconds += sph_clock() - begin;
   return status;
 }

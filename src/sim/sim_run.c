@@ -206,12 +206,31 @@ static int run(sph_sim *sim, double t_end)
   return status;
 }
 
+int sph_sim_run_enter(sph_sim *sim)
+{
+  if (sim && sim->inside)
+    return sph_sim_fail(sim, SPH_ERR_STATE,
+                        "a run or step inside of another at t = %g s; right is none in callbacks "
+                        "(terms, outputs, events, modifiers, progress)",
+                        sim->time);
+  if (sim) sim->inside = 1;
+  return SPH_OK;
+}
+
+void sph_sim_run_leave(sph_sim *sim)
+{
+  if (sim) sim->inside = 0;
+}
+
 int sph_sim_run(sph_sim *sim, double t_end)
 {
   double begin = sph_clock();
   if (!sim) return SPH_ERR_MEMORY;
+  int status = sph_sim_run_enter(sim);
+  if (status) return status;
   sim->begun = begin;
-  int status = run(sim, t_end);
+  status = run(sim, t_end);
+  sph_sim_run_leave(sim);
   sim->seconds += sph_clock() - begin;
   sim->begun = 0;
   return status;

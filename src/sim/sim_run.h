@@ -12,6 +12,9 @@ int sph_sim_run_frame_all(sph_sim *sim);
 /* One accepted step, not past t_stop, of a prepared simulation, its events, modifiers and, if
  * framed, its frames. */
 int sph_sim_run_step(sph_sim *sim, double t_stop, int framed);
+/* Around what makes steps: callbacks of one begin no other (recorded). */
+int sph_sim_run_enter(sph_sim *sim); /* NULL is fine */
+void sph_sim_run_leave(sph_sim *sim);
 /* Closes all outputs: after a failure, or when the simulation ends. */
 void sph_sim_run_close(sph_sim *sim);
 

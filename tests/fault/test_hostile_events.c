@@ -225,6 +225,46 @@ static void changes_inside_frames(void **state)
   refused(sim, SPH_ERR_STATE, "terms change between steps");
 }
 
+/* A step inside of a step: from every callback, told and not followed. */
+static int steps(sph_sim *sim) { return sph_sim_time(sim) > 0.01 ? sph_sim_step(sim) : SPH_OK; }
+static double steps_value(void *ctx, sph_sim *sim)
+{
+  (void)ctx, steps(sim);
+  return sph_sim_time(sim) - 0.02;
+}
+static int steps_change(void *ctx, sph_sim *sim)
+{
+  (void)ctx;
+  return sph_sim_run(sim, 1);
+}
+static int steps_frame(void *ctx, sph_sim *sim, sph_error *error)
+{
+  (void)ctx, (void)error;
+  return steps(sim);
+}
+static int steps_progress(void *ctx, sph_sim *sim)
+{
+  (void)ctx;
+  return steps(sim);
+}
+
+static void steps_inside_of_steps(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 5; k++) {
+    sph_sim *sim = make();
+    sph_event value = {.name = "e", .value = steps_value};
+    sph_event time = {.name = "e", .type = "time", .threshold = 0.02, .change = steps_change};
+    if (k < 2) sph_sim_add_event(sim, k ? &time : &value);
+    if (k == 2) sph_sim_add_output(sim, (sph_output){.interval = 0.02, .frame = steps_frame});
+    if (k == 3)
+      sph_sim_add_modifier(sim, (sph_modifier){.name = "m", .steps = 1, .modify = steps_progress});
+    if (k == 4) sph_sim_set_progress(sim, steps_progress, NULL);
+    assert_true(sph_sim_run(sim, 0.1) < 0);
+    refused(sim, SPH_ERR_STATE, "a run or step inside of another");
+  }
+}
+
 static void scales(void **state)
 {
   (void)state;
@@ -278,6 +318,7 @@ int main(void)
       cmocka_unit_test(modifiers),
       cmocka_unit_test(changes_of_terms),
       cmocka_unit_test(changes_inside_frames),
+      cmocka_unit_test(steps_inside_of_steps),
       cmocka_unit_test(scales),
       cmocka_unit_test(no_directory),
   };
