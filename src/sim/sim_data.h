@@ -155,9 +155,9 @@ struct sph_sim {
   double given[SPH_CHANGEABLE];           /* parameters at the start (sim_keep.c) */
 
   /* Moving. */
-  int inside; /* of a step, a run, a sensitivity's, an adjoint's: callbacks begin no other */
-  double time;            /* of the state shown */
-  double looked;          /* for events, up to here [s] */
+  int inside;    /* of a step, a run, a sensitivity's, an adjoint's: callbacks begin no other */
+  double time;   /* of the state shown */
+  double looked; /* for events, up to here [s] */
   const char *stopped_by; /* the event that ended the last run or step; NULL: none */
   double start;           /* of the run: frames count from here */
   double begun;           /* sph_clock when the present sph_sim_run began; 0: none goes on */
