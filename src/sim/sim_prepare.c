@@ -253,7 +253,7 @@ static int make_sorted(sph_sim *sim, int g)
   /* Tiles read all slots up to the scalars; the others only those of their terms. */
   sorted->stride =
       fluid_slots(sim->dim, terms, sim->part[SPH_WHOLE].tiles ? sim->terms.scalars : 0);
-  sorted->room = sim->group[g]->capacity;
+  sorted->room = (sim->group[g]->n + 7) / 8 * 8; /* whole blocks: what is beyond costs time, too */
   sorted->record =
       SPH_NEW(double, sorted->room * sorted->stride + SPH_PAIR_SLOTS, "records", &sim->error);
   for (int s = 0; s < sums_of(sim, sim->group[g]); s++)

@@ -136,7 +136,7 @@ int sph_sim_weights(N_Vector y, N_Vector weight, void *ctx)
   for (int g = 0; g < sim->groups; g++)
     for (int field = 0; field < SPH_FIELDS; field++)
       for (int c = 0; c < 3; c++) {
-        const long offset = sim->group[g]->offset[field][c], n = sim->group[g]->capacity;
+        const long offset = sim->group[g]->offset[field][c], n = sim->group[g]->n;
         if (offset < 0) continue;
         const double value = 1 / sim->scale[g][field];
         double *w = sph_nvector_data(weight) + offset;
