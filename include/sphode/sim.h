@@ -61,8 +61,8 @@ SPH_API void sph_sim_set_scale(sph_sim *sim, const sph_group *group, const char 
                                double scale);
 SPH_API void sph_sim_set_integrator(sph_sim *sim, const sph_integrator_def *def); /* copied */
 SPH_API void sph_sim_add_output(sph_sim *sim, sph_output output);
-/* Called after every accepted step; a return != 0 stops the run with SPH_ERR_STOPPED, outputs
- * closed. */
+/* Called after every accepted step; a return != 0 before the end stops the run with
+ * SPH_ERR_STOPPED, outputs closed. */
 SPH_API void sph_sim_set_progress(sph_sim *sim, int (*progress)(void *ctx, sph_sim *sim),
                                   void *ctx);
 

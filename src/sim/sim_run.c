@@ -193,7 +193,7 @@ static int run(sph_sim *sim, double t_end)
   while (!status && sim->time < t_end && !sim->stopped_by) {
     status = sph_sim_run_step(sim, t_end, 1);
     if (!status) status = sph_sim_keep_save(sim, 0);
-    if (!status && sim->progress && sim->progress(sim->progress_ctx, sim)) {
+    if (!status && sim->progress && sim->progress(sim->progress_ctx, sim) && sim->time < t_end) {
       status = sph_sim_keep_save(sim, 1);
       if (!status)
         status = sph_sim_fail(sim, SPH_ERR_STOPPED, "stopped on request at t = %g s", sim->time);
