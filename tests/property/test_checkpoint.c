@@ -298,6 +298,49 @@ static void each_kind(void **state)
   one_integrator(&v, end_of(&v), "mri:kw3 with error control of the fast part");
 }
 
+/* The same course, if not the same bits. */
+static void near_to(const result *a, const result *b)
+{
+  assert_int_equal(a->n, b->n);
+  for (long i = 0; i < a->n; i++) {
+    double d = fabs(a->values[i] - b->values[i]);
+    if (!(d <= 1e-8 * (1 + fabs(a->values[i]))))
+      fail_msg("relaxed: number %ld differs by %g", i, d);
+  }
+}
+
+/* Relaxed steps, from SUNDIALS 6.6 on, which an older one says and passes: their Newton's method
+ * starts from the factor of the step before, which ARKODE does not tell. */
+static void relaxed(void **state)
+{
+  (void)state;
+  static const char *const method[] = {"erk:bogacki-shampine-4-2-3", "erk:zonneveld-5-3-4"};
+  for (int k = 0; k < 4; k++) {
+    variant v = {.integrator = {.method = method[k % 2],
+                                .relax = "energy",
+                                .tolerance = k < 2 ? -1 : 1e-3,
+                                .cfl = k < 2 ? 0 : 10}};
+    memory m;
+    sph_sim *sim = make(&v, 1, NULL, &m);
+    int unbuilt = sph_sim_status(sim) == SPH_ERR_UNBUILT;
+    if (unbuilt) print_message("# %s\n", sph_sim_error(sim));
+    sph_sim_free(sim);
+    if (unbuilt) return;
+    char directory[300], path[400];
+    path_of(directory, "relaxed");
+    clear(directory);
+    const double end = end_of(&v);
+    result a = plain(&v, end, NULL), b = checked(&v, end, 0, directory);
+    assert_true(same(&a, &b));
+    assert_true(sph_checkpoint_find(directory, 3, path, sizeof path));
+    result c = restarted(&v, end, 1, path, NULL);
+    near_to(&a, &c);
+    free(a.values);
+    free(b.values);
+    free(c.values);
+  }
+}
+
 /* ---- files ---- */
 
 static char *content(const char *directory, const char *name, long *size)
@@ -439,10 +482,8 @@ static int tear_down(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(which_stay),
-      cmocka_unit_test(files),
-      cmocka_unit_test(each_kind),
-      cmocka_unit_test(each_integrator),
+      cmocka_unit_test(which_stay), cmocka_unit_test(files),           cmocka_unit_test(each_kind),
+      cmocka_unit_test(relaxed),    cmocka_unit_test(each_integrator),
   };
   cmocka_set_message_output(CM_OUTPUT_TAP);
   return cmocka_run_group_tests(tests, set_up, tear_down);
