@@ -4,10 +4,11 @@
  * course as one without, and one that goes on from any of them the same as one that was never
  * interrupted, to the last bit, for every integrator and any number of threads (on the same
  * instruction set, with the same SUNDIALS and this version of the library; relaxed steps agree to
- * what their Newton's method leaves, which starts from a factor that ARKODE does not tell).  To that end it holds
- * all that the simulation remembers: the state, positions and order of the last list build, what
- * the integrator, its controller and its linear solvers know of the steps so far, sides of events,
- * counts of modifiers, places in the output files, and what sph_keep functions add.
+ * what their Newton's method leaves, which starts from a factor that ARKODE does not tell).  To
+ * that end it holds all that the simulation remembers: the state, positions and order of the last
+ * list build, what the integrator, its controller and its linear solvers know of the steps so far,
+ * sides of events, counts of modifiers, places in the output files, and what sph_keep functions
+ * add.
  *
  * To go on: make the simulation as it was made for its start (the same groups, terms, integrator,
  * outputs, events, modifiers), then sph_checkpoint_read, then sph_sim_run.
