@@ -55,7 +55,7 @@ typedef struct multirate {
 } multirate;
 
 /* In 7.0 and 7.1 what MRIStep interpolates with may lack the fast rates (erk45a). */
-enum { DENSE = SPH_SUNDIALS_NUMBER < 70000 || SPH_SUNDIALS_NUMBER >= 70200 };
+#define OWN_DENSE (SPH_SUNDIALS_NUMBER >= 70000 && SPH_SUNDIALS_NUMBER < 70200)
 
 static multirate *of(const sph_integrator *it)
 {
@@ -128,12 +128,16 @@ static int set_coupling(void *memory, const char *name)
 
 static int make_rates(sph_integrator *it, multirate *kind)
 {
+#if OWN_DENSE
   N_Vector *to[3] = {&kind->rates[0], &kind->rates[1], &kind->piece};
-  kind->begin = kind->end = NAN;
-  for (int k = 0; k < 3 && !DENSE; k++) {
+  for (int k = 0; k < 3; k++) {
     *to[k] = sph_nvector_clone(it->y, "rates for dense output", it->problem.error);
     if (!*to[k]) return SPH_ERR_MEMORY;
   }
+#else
+  (void)it;
+#endif
+  kind->begin = kind->end = NAN;
   return SPH_OK;
 }
 
@@ -183,6 +187,8 @@ static int attempt(sph_integrator *it, sph_attempt *a, double t_stop)
   return status ? status : kind->failed;
 }
 
+#if OWN_DENSE
+
 /* f_slow + f_fast */
 static int rates(sph_integrator *it, double t, N_Vector y, N_Vector f)
 {
@@ -198,7 +204,6 @@ static int rates(sph_integrator *it, double t, N_Vector y, N_Vector f)
 static int interpolate(sph_integrator *it, double t, N_Vector at)
 {
   multirate *kind = of(it);
-  if (DENSE) return sph_integrator_arkode_interpolate(it, t, at);
   int status = SPH_OK;
   if (kind->begin != it->previous || kind->end != it->time) {
     kind->begin = kind->end = NAN;
@@ -215,6 +220,15 @@ static int interpolate(sph_integrator *it, double t, N_Vector at)
   N_VLinearSum(1, at, h * q * s, kind->rates[1], at);
   return SPH_OK;
 }
+
+#else
+
+static int interpolate(sph_integrator *it, double t, N_Vector at)
+{
+  return sph_integrator_arkode_interpolate(it, t, at);
+}
+
+#endif
 
 static int keep(sph_integrator *it, sph_keep *keep)
 {
