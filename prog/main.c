@@ -31,7 +31,7 @@ static const command commands[] = {
     {"restart", "DIR", "sUtqb", sph_prog_restart,
      "go on with a run that was killed, stopped or is to go further",
      "  From the last good checkpoint, with the case that it holds; files go on where they were.\n"
-     "  Results have the same bits as without the interruption.\n"
+     "  Results have the same bits as without the interruption (relax: within 1e-8).\n"
      "\n"
      "      --until TIME       instead of the end of the case, as 0.1s\n"
      "  -s, --set KEY=VALUE    besides what was set then; the integrator starts anew from the "
