@@ -16,6 +16,7 @@
 #include "sphode/integrator.h"
 #include "sphode/jacobian.h"
 #include "sphode/kernel.h"
+#include "sphode/manufactured.h"
 #include "sphode/material.h"
 #include "sphode/neighbors.h"
 #include "sphode/operator.h"

@@ -510,6 +510,76 @@ static void warnings_of_dust(void **state)
   sph_sim_free(s.sim);
 }
 
+/* ---- manufactured solutions ---- */
+
+static void at_rest(void *ctx, const double x[3], double t, double v[3])
+{
+  (void)ctx, (void)x, (void)t;
+  v[0] = v[1] = 0;
+}
+
+static double constant(void *ctx, const double x[3], double t)
+{
+  (void)x, (void)t;
+  return ctx ? *(double *)ctx : 1000;
+}
+
+static void attached(subject s, sph_group *group, sph_manufactured def, const char *text)
+{
+  sph_manufactured_attach(group, &def);
+  assert_refused(s, SPH_ERR_ARGUMENT, text);
+}
+
+static void manufactured(void **state)
+{
+  (void)state;
+  static const char wants[] =
+      "group water: a manufactured solution needs a velocity, and either a density or a pressure";
+  static const char liquids[] = ": a manufactured solution needs a fluid whose pressure depends on "
+                                "its density alone; set its equation of state before";
+  const sph_manufactured right = {at_rest, constant, NULL, 1, 1, NULL};
+  sph_manufactured d = right;
+  double none = 0;
+  char text[300];
+  subject s = liquid();
+  d.velocity = NULL, attached(s, s.water, d, wants);
+  s = liquid(), d = right;
+  d.density = NULL, attached(s, s.water, d, wants);
+  s = liquid(), d = right;
+  d.pressure = constant, attached(s, s.water, d, wants);
+  s = liquid(), d = right;
+  d.time = 0;
+  attached(s, s.water, d,
+           "group water: a manufactured solution that changes over 1 m and 0 s; right is > 0 and "
+           "finite");
+  s = liquid(), d = right;
+  d.ctx = &none;
+  attached(s, s.water, d, "group water, particle 0: manufactured density 0 kg/m^3; right is > 0");
+  s = gas(), snprintf(text, sizeof text, "group water%s", liquids);
+  attached(s, s.water, right, text);
+  s = liquid(), snprintf(text, sizeof text, "group floor%s", liquids);
+  attached(s, s.floor, right, text);
+  s = liquid(), sph_manufactured_attach(s.water, &right);
+  attached(s, s.water, right, "group water has a manufactured solution already");
+  s = liquid();
+  assert_int_equal(sph_manufactured_source(s.water, (double[3]){0}, 0, NULL, NULL),
+                   SPH_ERR_ARGUMENT);
+  assert_refused(s, SPH_ERR_ARGUMENT, "group water has no manufactured solution");
+  s = liquid(), sph_manufactured_attach(s.water, &right);
+  assert_int_equal(sph_manufactured_error_of(s.water, "mass", &(sph_manufactured_error){0}),
+                   SPH_ERR_ARGUMENT);
+  assert_refused(s, SPH_ERR_ARGUMENT,
+                 "a manufactured solution has no field \"mass\"; known: velocity, density, "
+                 "pressure");
+  s = liquid(), assert_int_equal(sph_sim_evaluate(s.sim), SPH_OK);
+  sph_manufactured_attach(s.water, &right);
+  assert_refused(s, SPH_ERR_STATE,
+                 "group water: a manufactured solution is attached before the run");
+  sph_manufactured_attach(NULL, &right);
+  assert_int_equal(sph_manufactured_source(NULL, (double[3]){0}, 0, NULL, NULL), SPH_ERR_ARGUMENT);
+  assert_int_equal(sph_manufactured_error_of(NULL, "velocity", NULL), SPH_ERR_ARGUMENT);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -527,6 +597,7 @@ int main(void)
       cmocka_unit_test(dust),
       cmocka_unit_test(warnings_of_dust),
       cmocka_unit_test(warnings_of_steps),
+      cmocka_unit_test(manufactured),
   };
   return cmocka_run_group_tests_name("hostile terms", tests, NULL, NULL);
 }

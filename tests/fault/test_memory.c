@@ -168,6 +168,18 @@ static void add_dust(sph_sim *sim)
   sph_sim_add_term(sim, sph_term_drag_time(0.1));
 }
 
+static void at_rest(void *ctx, const double x[3], double t, double v[3])
+{
+  (void)ctx, (void)x, (void)t;
+  v[0] = v[1] = 0;
+}
+
+static double constant(void *ctx, const double x[3], double t)
+{
+  (void)ctx, (void)x, (void)t;
+  return 1000;
+}
+
 static int attach_and_run(sph_sim *sim, const variant *v)
 {
   sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1, 0.5}, 1000);
@@ -191,6 +203,11 @@ static int attach_and_run(sph_sim *sim, const variant *v)
   if (v->thermal) sph_sim_add_term(sim, sph_term_conductivity_artificial(1));
   sph_sim_add_term(sim, sph_term_gravity((double[3]){0, -9.81, 0}));
   sph_sim_add_term(sim, (sph_term){"push", .body = push, .ctx = &let_go[TERM], .free = count});
+  if (!v->thermal)
+    sph_manufactured_attach(water, &(sph_manufactured){.velocity = at_rest,
+                                                       .density = constant,
+                                                       .length = 1,
+                                                       .time = 1});
   deal(sim, v);
   sph_sim_set_integrator(sim, &(sph_integrator_def){.method = v->method});
   sph_sim_add_output(sim, (sph_output){"nothing", 0.002, .frame = frame, .ctx = &let_go[OUTPUT],
