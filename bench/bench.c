@@ -118,9 +118,11 @@ int main(int argc, char **argv)
   bench_neighbors();
   bench_operators();
   bench_rhs();
+  bench_baseline();
   bench_derivatives();
   bench_integration();
   bench_tiles();
+  bench_reach();
   bench_stability();
   bench_linear();
   bench_imex();

@@ -349,6 +349,14 @@ static int make_integrator(sph_sim *sim)
   return sim->error.status;
 }
 
+/* A vector that was never written takes no memory, and most runs never ask for these rates. */
+static int make_rates_anew(sph_sim *sim)
+{
+  N_VDestroy(sim->ydot);
+  sim->ydot = sph_nvector_create(&sim->layout, sim->threads, sim->context, &sim->error);
+  return sim->error.status;
+}
+
 int sph_sim_prepare(sph_sim *sim)
 {
   if (!sph_sim_data_ok(sim)) return sph_sim_status(sim);
@@ -376,6 +384,7 @@ int sph_sim_prepare(sph_sim *sim)
         "%ld particles start nearer than 0.1 dx = %g m to another (a wall in the fluid, "
         "or two shapes that overlap?)",
         sim->near, 0.1 * sim->dx);
+  if (!status) status = make_rates_anew(sim);
   if (!status) sph_sim_weights_scales(sim);
   if (!status) status = sph_sim_implicit_make(sim);
   if (!status) status = make_integrator(sim);
