@@ -1,6 +1,6 @@
 /* Whole right-hand sides beside those of a good plain code (baseline.h), by turns: a jittered block
- * of liquid in open space.  "rebuild": both sort and build their lists in every evaluation.  And how
- * time per particle grows with their number.  The rates of both must agree. */
+ * of liquid in open space.  "rebuild": both sort and build their lists in every evaluation.  And
+ * how time per particle grows with their number.  The rates of both must agree. */
 #include <sphode.h>
 #include <stdio.h>
 #include <stdlib.h>
