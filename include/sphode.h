@@ -18,6 +18,7 @@
 #include "sphode/kernel.h"
 #include "sphode/manufactured.h"
 #include "sphode/material.h"
+#include "sphode/measure.h"
 #include "sphode/neighbors.h"
 #include "sphode/operator.h"
 #include "sphode/output.h"

@@ -71,13 +71,17 @@ SPH_API sph_output sph_output_hdf5_def(const sph_hdf5_def *def); /* strings are 
  *   front      largest coordinate along `axis` of a particle with >= 3 neighbours within 2 dx,
  *              + dx/2: spray does not count; NaN where there is none [m]
  *   height     the same along the last direction (y in 2D, z in 3D) [m]
+ *   gauge      a wave gauge: the highest place on the line through x along the last direction where
+ *              sum V W = 1/2, as it is on a flat surface; NaN where there is none.  Nearer than the
+ *              kernel's support to a wall beside it, it reads too low; lone particles of spray are
+ *              not seen in 2D and 3D [m] (docs/theory.md)
  *   pressure   at x: sum V p W / sum V W, and 0 where sum V W < 0.15 (dry: an immersed point has
  *              1, a point on an immersed wall 1/2) [Pa].  With an extent: the mean over the
  *              ellipsoid (disc, segment) with these half lengths, sampled every dx or finer
  *   semi-axis  sqrt((dim + 2) <(x - <x>)^2>) along `axis`: of an ellipse or ellipsoid [m] */
 typedef struct sph_monitor {
   const char *name;  /* of the column: [A-Za-z0-9_.-], at most 63 */
-  const char *type;  /* "front", "height", "pressure", "semi-axis" */
+  const char *type;  /* "front", "height", "gauge", "pressure", "semi-axis" */
   const char *group; /* NULL: all fluids */
   int axis;          /* 0, 1, 2 */
   double x[3];       /* [m] */
@@ -92,6 +96,53 @@ SPH_API int sph_monitor_value(const sph_monitor *monitor, struct sph_sim *sim, d
 
 SPH_API sph_output sph_output_series(const char *directory, double interval,
                                      const sph_monitor *monitors, int n); /* copied */
+
+/* A wall of which the force is wanted, and the point that its torque is about. */
+typedef struct sph_series_force {
+  const char *wall;
+  double about[3]; /* [m] */
+} sph_series_force;
+
+/* The same, with more columns behind the monitors:
+ *   of each wall in `force`: NAME_force_x ... [N/m in 2D], NAME_pressure_x ..., NAME_viscous_x ...,
+ *              and NAME_torque_z (3D: _x, _y, _z): sph_sim_force
+ *   powers     TERM_kinetic [W/m in 2D], TERM_internal of each term: sph_sim_power */
+typedef struct sph_series_def {
+  const char *directory;
+  double interval; /* [s]; see sph_output */
+  int monitors;
+  const sph_monitor *monitor; /* [monitors] */
+  int forces;
+  const sph_series_force *force; /* [forces] */
+  int powers;                    /* 1: yes */
+} sph_series_def;
+SPH_API sph_output sph_output_series_def(const sph_series_def *def); /* all is copied */
+
+/* ---- probes ----------------------------------------------------------------------------------
+ * directory/probe_NAME.csv: fields of the fluids at places, interpolated,
+ *
+ *   f(x) = sum_j V_j f_j W(x - x_j) / sum_j V_j W(x - x_j)   (Shepard 1968: exact for constants)
+ *
+ * over the fluid particles alone.  A row a place and frame: time, x, y, z, cover = sum V W, then
+ * the fields; "nan" where cover < 0.15: no fluid is near (an immersed place has 1, one on an
+ * immersed wall 1/2).  Behind each frame of more than one place stands an empty line.  Vectors have
+ * a column for each direction. */
+typedef struct sph_probe_def {
+  const char *directory;
+  const char *name; /* of the file: [A-Za-z0-9_.-], at most 63 */
+  double interval;  /* [s]; see sph_output */
+  /* Names of the field table and of scalars of terms, with spaces between them; NULL: "pressure
+   * velocity density". */
+  const char *fields;
+  const char *group; /* a fluid; NULL: all fluids, which must have these fields */
+  /* The places: x[points][3] [m], or, with points 0, a grid: from + i/(n[0] - 1) along +
+   * j/(n[1] - 1) across, i = 0 .. n[0] - 1, j = 0 .. n[1] - 1.  n 0: 1.  A line has n[1] 1. */
+  long points;
+  const double *x;
+  double from[3], along[3], across[3]; /* [m] */
+  long n[2];
+} sph_probe_def;
+SPH_API sph_output sph_output_probe(const sph_probe_def *def); /* all is copied */
 
 /* ---- events ----------------------------------------------------------------------------------
  * directory/events.csv: time, step, event (its name), value: a row for each moment of each event

@@ -396,29 +396,7 @@ sph_sim *sph_case_build(const sph_case *c, int threads, sph_error *error)
   return NULL;
 }
 
-/* ---- outputs */
-
-static void add_series(const sph_case *c, sph_sim *sim, const char *directory, double interval)
-{
-  enum { MOST = 64 };
-  sph_monitor monitors[MOST];
-  int n = 0;
-  const sph_case_node *list = child_of(child_of(c->root, "output"), "monitors");
-  for (const sph_case_node *node = list ? list->first : NULL; node; node = node->next) {
-    if (n == MOST) {
-      sph_sim_fail(sim, SPH_ERR_PARSE, "%s: more than %d monitors", c->path, MOST);
-      return;
-    }
-    sph_monitor *m = &monitors[n++];
-    *m = (sph_monitor){.name = node->key,
-                       .type = get_text(node, "type", NULL),
-                       .group = get_text(node, "group", NULL),
-                       .axis = axis_of(get_text(node, "axis", "x"))};
-    get_vector(node, "at", m->x);
-    get_vector(node, "extent", m->extent);
-  }
-  sph_sim_add_output(sim, sph_output_series(directory, interval, monitors, n));
-}
+/* ---- checkpoints */
 
 void sph_case_build_checkpoints(const sph_case *c, sph_sim *sim, const char *directory,
                                 const char *command)
@@ -445,22 +423,4 @@ void sph_case_build_checkpoints(const sph_case *c, sph_sim *sim, const char *dir
                                   .set = set};
   sph_checkpoint_set(sim, &def);
   free(path);
-}
-
-void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directory,
-                            const char *command)
-{
-  if (!c) {
-    sph_sim_fail(sim, SPH_ERR_ARGUMENT, "outputs of no case (NULL)");
-    return;
-  }
-  const sph_case_node *output = child_of(c->root, "output");
-  double end = sph_case_end(c);
-  sph_hdf5_def def = {.directory = directory,
-                      .interval = get_number(output, "snapshots", end / 20),
-                      .case_text = c->text,
-                      .command = command};
-  sph_sim_add_output(sim, sph_output_hdf5_def(&def));
-  add_series(c, sim, directory, get_number(output, "series", end / 500));
-  if (child_of(c->root, "events")) sph_sim_add_output(sim, sph_output_events(directory));
 }

@@ -4,6 +4,7 @@
 #include "memory.h"
 #include "monitor.h"
 #include "rows.h"
+#include "sphode/measure.h"
 #include "sphode/output.h"
 #include "sphode/sim.h"
 #include "text.h"
@@ -12,8 +13,9 @@
 typedef struct context {
   sph_error error; /* of the constructor; told by open */
   char *directory;
-  sph_monitor *monitors; /* [n], strings owned */
-  int n;
+  sph_monitor *monitors;   /* [n], strings owned */
+  sph_series_force *force; /* [forces], names owned */
+  int n, forces, powers;
   sph_rows rows;
 } context;
 
@@ -50,6 +52,30 @@ static void add_scalar(sph_sim *sim, const char *name, sph_text *row)
   sph_text_add(row, ",%.15g,%.15g,%.15g", sum / mass, least, most);
 }
 
+/* First component of a torque or an angular momentum; behind the last where there is none. */
+static int first_turn(int dim) { return dim == 3 ? 0 : dim == 2 ? 2 : 3; }
+
+static void header_forces(const context *c, int dim, sph_text *row)
+{
+  static const char *const parts[] = {"force", "pressure", "viscous"};
+  for (int k = 0; k < c->forces; k++) {
+    for (int part = 0; part < 3; part++)
+      for (int d = 0; d < dim; d++)
+        sph_text_add(row, ",%s_%s_%c [%s]", c->force[k].wall, parts[part], "xyz"[d],
+                     sph_units_get(SPH_UNIT_FORCE, dim));
+    for (int d = first_turn(dim); d < 3; d++)
+      sph_text_add(row, ",%s_torque_%c [%s]", c->force[k].wall, "xyz"[d],
+                   sph_units_get(SPH_UNIT_TORQUE, dim));
+  }
+}
+
+static void header_powers(const sph_sim *sim, sph_text *row)
+{
+  const char *unit = sph_units_get(SPH_UNIT_POWER, sph_sim_dim(sim)), *term;
+  for (int k = 0; (term = sph_sim_power_term(sim, k)); k++)
+    sph_text_add(row, ",%s_kinetic [%s],%s_internal [%s]", term, unit, term, unit);
+}
+
 static void header(const context *c, const sph_sim *sim, sph_text *row)
 {
   static const char *const energies[] = {"kinetic", "potential", "internal", "total"};
@@ -60,7 +86,7 @@ static void header(const context *c, const sph_sim *sim, sph_text *row)
     sph_text_add(row, ",%s [%s]", energies[k], sph_units_get(SPH_UNIT_ENERGY, dim));
   for (int d = 0; d < dim; d++)
     sph_text_add(row, ",momentum_%c [%s]", "xyz"[d], sph_units_get(SPH_UNIT_MOMENTUM, dim));
-  for (int d = dim == 3 ? 0 : 2; dim > 1 && d < 3; d++)
+  for (int d = first_turn(dim); d < 3; d++)
     sph_text_add(row, ",angular_momentum_%c [%s]", "xyz"[d],
                  sph_units_get(SPH_UNIT_ANGULAR_MOMENTUM, dim));
   for (int k = 0; (info = scalar(sim, k)); k++)
@@ -68,7 +94,41 @@ static void header(const context *c, const sph_sim *sim, sph_text *row)
                  info->unit, info->name, info->unit);
   for (int k = 0; k < c->n; k++)
     sph_text_add(row, ",%s [%s]", c->monitors[k].name, sph_monitor_unit(c->monitors[k].type));
+  header_forces(c, dim, row);
+  if (c->powers) header_powers(sim, row);
   sph_text_add(row, "\n");
+}
+
+/* A failure that stuck to the simulation while it was measured. */
+static int told(const sph_sim *sim, int status, sph_error *error)
+{
+  return status ? sph_error_set(error, status, "%s", sph_sim_error(sim)) : SPH_OK;
+}
+
+static int add_forces(const context *c, sph_sim *sim, sph_text *row, sph_error *error)
+{
+  const int dim = sph_sim_dim(sim);
+  for (int k = 0; k < c->forces; k++) {
+    sph_force f;
+    int status = sph_sim_force(sim, sph_sim_group(sim, c->force[k].wall), c->force[k].about, &f);
+    if (status) return told(sim, status, error);
+    const double *parts[] = {f.force, f.pressure, f.viscous};
+    for (int part = 0; part < 3; part++)
+      for (int d = 0; d < dim; d++) sph_text_add(row, ",%.15g", parts[part][d]);
+    for (int d = first_turn(dim); d < 3; d++) sph_text_add(row, ",%.15g", f.torque[d]);
+  }
+  return SPH_OK;
+}
+
+static int add_powers(sph_sim *sim, sph_text *row, sph_error *error)
+{
+  for (int k = 0; sph_sim_power_term(sim, k); k++) {
+    sph_power power;
+    int status = sph_sim_power(sim, k, &power);
+    if (status) return told(sim, status, error);
+    sph_text_add(row, ",%.15g,%.15g", power.kinetic, power.internal);
+  }
+  return SPH_OK;
 }
 
 static int numbers(const context *c, sph_sim *sim, sph_text *row, sph_error *error)
@@ -81,8 +141,7 @@ static int numbers(const context *c, sph_sim *sim, sph_text *row, sph_error *err
   sph_text_add(row, "%.15g,%ld,%.15g", sph_sim_time(sim), stats.step.steps, stats.step.dt_last);
   sph_text_add(row, ",%.15g,%.15g,%.15g,%.15g", b.kinetic, b.potential, b.internal, b.total);
   for (int d = 0; d < dim; d++) sph_text_add(row, ",%.15g", b.momentum[d]);
-  for (int d = dim == 3 ? 0 : 2; dim > 1 && d < 3; d++)
-    sph_text_add(row, ",%.15g", b.angular_momentum[d]);
+  for (int d = first_turn(dim); d < 3; d++) sph_text_add(row, ",%.15g", b.angular_momentum[d]);
   const sph_field_info *info;
   for (int k = 0; (info = scalar(sim, k)); k++) add_scalar(sim, info->name, row);
   for (int k = 0; status == SPH_OK && k < c->n; k++) {
@@ -90,7 +149,23 @@ static int numbers(const context *c, sph_sim *sim, sph_text *row, sph_error *err
     status = sph_monitor_value(&c->monitors[k], sim, &value, error);
     sph_text_add(row, ",%.15g", value);
   }
+  if (status == SPH_OK) status = add_forces(c, sim, row, error);
+  if (status == SPH_OK && c->powers) status = add_powers(sim, row, error);
   sph_text_add(row, "\n");
+  return status;
+}
+
+/* Monitors and walls: are they there?  Else, what would be right. */
+static int check(const context *c, const sph_sim *sim, sph_error *error)
+{
+  int status = sph_error_set(error, c->error.status, "%s", c->error.text);
+  for (int k = 0; !status && k < c->n; k++) status = sph_monitor_check(&c->monitors[k], sim, error);
+  for (int k = 0; !status && k < c->forces; k++) {
+    const char *kind = sph_group_kind(sph_sim_group(sim, c->force[k].wall));
+    if (strcmp(kind, "wall") != 0)
+      return sph_error_set(error, SPH_ERR_ARGUMENT, "a force on %s: %s; right is a wall",
+                           c->force[k].wall, *kind ? "it is a fluid" : "there is no such group");
+  }
   return status;
 }
 
@@ -99,10 +174,7 @@ static int open_series(void *ctx, sph_sim *sim, sph_error *error)
   context *c = ctx;
   sph_text row = {0};
   if (!c) return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: a time series");
-  if (c->error.status != SPH_OK) return sph_error_set(error, c->error.status, "%s", c->error.text);
-  int status = SPH_OK;
-  for (int k = 0; status == SPH_OK && k < c->n; k++)
-    status = sph_monitor_check(&c->monitors[k], sim, error);
+  int status = check(c, sim, error);
   if (status == SPH_OK) status = sph_rows_open(&c->rows, c->directory, "series.csv", error);
   if (status != SPH_OK) return status;
   header(c, sim, &row);
@@ -124,8 +196,7 @@ static int keep_series(void *ctx, sph_sim *sim, sph_keep *keep, sph_error *error
   context *c = ctx;
   sph_text columns = {0};
   if (!c) return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: a time series");
-  int status = sph_error_set(error, c->error.status, "%s", c->error.text);
-  for (int k = 0; !status && k < c->n; k++) status = sph_monitor_check(&c->monitors[k], sim, error);
+  int status = check(c, sim, error);
   if (status) return status;
   header(c, sim, &columns);
   status = sph_error_set(error, columns.error.status, "%s", columns.error.text);
@@ -152,6 +223,8 @@ static void free_series(void *ctx)
     sph_memory_free((void *)c->monitors[k].type);
     sph_memory_free((void *)c->monitors[k].group);
   }
+  for (int k = 0; c->force && k < c->forces; k++) sph_memory_free((void *)c->force[k].wall);
+  sph_memory_free(c->force);
   sph_memory_free(c->monitors);
   sph_memory_free(c->directory);
   sph_memory_free(c);
@@ -175,21 +248,46 @@ static void copy_monitors(context *c, const sph_monitor *monitors, int n)
   }
 }
 
-sph_output sph_output_series(const char *directory, double interval, const sph_monitor *monitors,
-                             int n)
+static void copy_forces(context *c, const sph_series_def *def)
 {
+  if (def->forces <= 0) return;
+  if (!def->force) {
+    sph_error_set(&c->error, SPH_ERR_ARGUMENT, "a time series: %d forces at NULL", def->forces);
+    return;
+  }
+  c->force = SPH_NEW(sph_series_force, def->forces, "forces", &c->error);
+  for (int k = 0; c->force && k < def->forces; k++) {
+    c->force[k] = def->force[k];
+    c->force[k].wall = copy(def->force[k].wall ? def->force[k].wall : "", &c->error);
+    c->forces = k + 1;
+  }
+}
+
+sph_output sph_output_series_def(const sph_series_def *def)
+{
+  static const sph_series_def nothing = {0};
   context *c = sph_memory_take(1, sizeof *c);
+  if (!def) def = &nothing;
   if (c) {
     c->rows.fd = -1;
-    c->directory = copy(directory, &c->error);
-    copy_monitors(c, monitors, n);
+    c->directory = copy(def->directory, &c->error);
+    copy_monitors(c, def->monitor, def->monitors);
+    copy_forces(c, def);
+    c->powers = def->powers != 0;
   }
   return (sph_output){.name = "series",
-                      .interval = interval,
+                      .interval = def->interval,
                       .open = open_series,
                       .frame = frame_series,
                       .close = close_series,
                       .keep = keep_series,
                       .ctx = c,
                       .free = free_series};
+}
+
+sph_output sph_output_series(const char *directory, double interval, const sph_monitor *monitors,
+                             int n)
+{
+  return sph_output_series_def(&(sph_series_def){
+      .directory = directory, .interval = interval, .monitor = monitors, .monitors = n});
 }

@@ -1,6 +1,8 @@
-/* monitor.c -- front, height, pressure at a point, semi-axis.
+/* monitor.c -- front, height, gauge, pressure at a point, semi-axis.
  *
  *   front      max { x_i : i has >= 3 neighbours j, |x_i - x_j| <= 2 dx } + dx/2
+ *   gauge      the highest z on the line through x along the last direction where
+ *              sum_j V_j W(x - x_j) = 1/2: what it is on the flat surface of a half space
  *   pressure   p(x) = sum_j V_j p_j W(x - x_j) / sum_j V_j W(x - x_j),  V = m/rho
  *   semi-axis  a = sqrt((d + 2) sum m (x - <x>)^2 / sum m),  <x> the centre of mass: exact for a
  *              uniform ellipsoid in d dimensions */
@@ -237,6 +239,50 @@ static int value_pressure(const sph_monitor *monitor, const sph_sim *sim, double
   return status;
 }
 
+static double cover_at(const points *near_by, double x[3], double z, const sph_kernel *kernel,
+                       double h)
+{
+  double unused;
+  x[near_by->dim - 1] = z;
+  return cover(near_by, x, kernel, h, &unused);
+}
+
+/* From above to the first place on the line that is half covered, then halving that interval. */
+static double surface(const sph_monitor *monitor, const points *near_by, const sph_kernel *kernel,
+                      double h, double dx)
+{
+  const double half = 0.5, step = dx / 4, reach = sph_kernel_support(kernel) * h;
+  const double *z = near_by->x[near_by->dim - 1];
+  double x[3] = {monitor->x[0], monitor->x[1], monitor->x[2]}, top = -INFINITY, low = INFINITY;
+  for (long j = 0; j < near_by->n; j++) top = fmax(top, z[j]), low = fmin(low, z[j]);
+  top += reach;
+  while (top > low && cover_at(near_by, x, top - step, kernel, h) < half) top -= step;
+  if (!(top > low)) return NAN;
+  double wet = top - step;
+  for (int k = 0; k < 40; k++) {
+    double middle = (wet + top) / 2;
+    if (cover_at(near_by, x, middle, kernel, h) < half)
+      top = middle;
+    else
+      wet = middle;
+  }
+  return (wet + top) / 2;
+}
+
+static int value_gauge(const sph_monitor *monitor, const sph_sim *sim, double *value,
+                       sph_error *error)
+{
+  const sph_kernel *kernel = sph_kernel_find(sph_sim_kernel(sim));
+  points near_by = {0};
+  sph_monitor line = *monitor;
+  for (int d = 0; d < 3; d++) line.extent[d] = d == sph_sim_dim(sim) - 1 ? INFINITY : 0;
+  int status = gather_near(&line, sim, 0, kernel, &near_by, error);
+  if (status == SPH_OK)
+    *value = surface(monitor, &near_by, kernel, sph_sim_h(sim), sph_sim_dx(sim));
+  sph_memory_free(near_by.memory);
+  return status;
+}
+
 /* sum m (x - shift)^power over the chosen groups. */
 static double moment(const sph_monitor *monitor, const sph_sim *sim, double shift, int power)
 {
@@ -267,9 +313,8 @@ static const struct {
   const char *name, *unit;
   int (*value)(const sph_monitor *monitor, const sph_sim *sim, double *value, sph_error *error);
 } types[] = {
-    {"front", "m", value_front},
-    {"height", "m", value_front},
-    {"pressure", "Pa", value_pressure},
+    {"front", "m", value_front},         {"height", "m", value_front},
+    {"gauge", "m", value_gauge},         {"pressure", "Pa", value_pressure},
     {"semi-axis", "m", value_semi_axis},
 };
 enum { TYPES = sizeof types / sizeof *types };
@@ -321,7 +366,8 @@ int sph_monitor_check(const sph_monitor *monitor, const sph_sim *sim, sph_error 
   if (status != SPH_OK) return status;
   if (find(monitor->type) < 0)
     return sph_error_set(error, SPH_ERR_ARGUMENT,
-                         "monitor %s: type \"%s\"; front, height, pressure, semi-axis are known",
+                         "monitor %s: type \"%s\"; front, height, gauge, pressure, semi-axis are "
+                         "known",
                          monitor->name, monitor->type ? monitor->type : "");
   if (monitor->group) {
     const sph_group *group = sph_sim_group(sim, monitor->group);
@@ -329,7 +375,12 @@ int sph_monitor_check(const sph_monitor *monitor, const sph_sim *sim, sph_error 
       return sph_error_set(error, SPH_ERR_ARGUMENT, "monitor %s: no fluid group \"%s\"",
                            monitor->name, monitor->group);
   }
-  return check_place(monitor, sph_sim_dim(sim), error);
+  const int last = sph_sim_dim(sim) - 1;
+  if (!strcmp(monitor->type, "gauge") && sph_sim_periodic(sim, last, NULL, NULL))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "monitor %s: a gauge along %c, which is periodic: there is no surface",
+                         monitor->name, "xyz"[last]);
+  return check_place(monitor, last + 1, error);
 }
 
 int sph_monitor_value(const sph_monitor *monitor, sph_sim *sim, double *value, sph_error *error)

@@ -14,7 +14,7 @@
 #include "tile_pair.h"
 
 enum {
-  SPH_OUTPUTS_MAX = 16,
+  SPH_OUTPUTS_MAX = 64,
   SPH_METHOD_MAX = 64,
   SPH_KEPT_MAX = 32 + SPH_SETS_MAX,
   SPH_KEPT_NAME = SPH_NAME_MAX + 32,

@@ -6,7 +6,7 @@
 #include "clock.h"
 #include "comm.h"
 
-static void views(sph_evaluation *e, N_Vector y, N_Vector ydot)
+void sph_sim_rhs_views(sph_evaluation *e, N_Vector y, N_Vector ydot)
 {
   for (int g = 0; g < e->sim->groups; g++)
     e->view[g] = sph_group_data_view(e->sim->group[g], sph_nvector_data(y),
@@ -36,7 +36,7 @@ int sph_sim_rhs_part(sph_sim *sim, const sph_part *part, double t, N_Vector y, N
 {
   double begin = sph_clock();
   sph_evaluation e = {.sim = sim, .t = t, .part = part};
-  views(&e, y, ydot);
+  sph_sim_rhs_views(&e, y, ydot);
   int status = phases(&e);
   sim->derived = 0; /* pressure etc. are those of y */
   sim->rhs_seconds += sph_clock() - begin;
@@ -82,7 +82,7 @@ int sph_sim_rhs_fast(double t, N_Vector y, N_Vector ydot, void *ctx)
 int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y)
 {
   sph_evaluation e = {.sim = sim, .t = t, .part = &sim->part[SPH_WHOLE]};
-  views(&e, y, NULL);
+  sph_sim_rhs_views(&e, y, NULL);
   int status = sph_sim_walls_move(&e);
   if (!status && !sim->listed) status = sph_sim_lists_update(&e);
   if (!status) status = sph_sim_density(&e);

@@ -15,6 +15,8 @@ typedef struct sph_evaluation {
   double drag_rate[2]; /* largest of fluids, of dust [1/s] */
 } sph_evaluation;
 
+/* The views of all groups of an evaluation; ydot NULL: no rates. */
+void sph_sim_rhs_views(sph_evaluation *e, N_Vector y, N_Vector ydot);
 /* Pressure, sound speed and walls of the state (t, y), with the lists as they are. */
 int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y);
 /* Any part of f; lists, records, pressures and walls are then those of (t, y). */
