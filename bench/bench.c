@@ -123,6 +123,7 @@ int main(int argc, char **argv)
   bench_integration();
   bench_tiles();
   bench_reach();
+  bench_dam();
   bench_stability();
   bench_linear();
   bench_imex();

@@ -19,6 +19,7 @@ void bench_memory(void);      /* bytes a particle, by parts */
 void bench_neighbors(void);   /* sort and list build */
 void bench_rhs(void);         /* right-hand sides */
 void bench_baseline(void);    /* the same over a good plain code; growth with size */
+void bench_dam(void);         /* SPHERIC's test 2, a developed flow; with --filter only */
 void bench_reach(void);       /* physical time per evaluation; with --filter only */
 void bench_operators(void);   /* operators on points */
 void bench_tiles(void);       /* registered pair terms against fused ones */
