@@ -109,6 +109,7 @@ static sph_case_distance wanted(const sph_case_node *node)
   sph_case_distance d = {.norm = get_text(node, "norm", "rms"),
                          .offset = get_number(node, "offset", 0),
                          .average = get_number(node, "average", 0),
+                         .found = NAN,
                          .window = {-INFINITY, INFINITY},
                          .up_to = get_number(node, "up_to", INFINITY),
                          .threshold = get_number(node, "threshold", 0.5)};
@@ -119,6 +120,9 @@ static sph_case_distance wanted(const sph_case_node *node)
 static int compare_series(const comparer *a, sph_case_distance *d)
 {
   table run = {0}, reference = {0};
+  if (sph_case_curve_of_one(d->norm) && strcmp(a->kind->key, "value") != 0)
+    return fail(a, child_of(a->node, "norm"),
+                "norm: drift, period, decay go with reference: value");
   d->one = a->kind->number;
   int status = read_run(a, &run);
   if (!status) status = read_reference(a, &run, &reference);
@@ -171,6 +175,8 @@ static void note_of(const sph_case_distance *d, char note[SPH_CASE_NOTE])
              d->wanted);
   else if (d->offset > 0)
     snprintf(note, SPH_CASE_NOTE, "time offset %.3g; %.3g without", d->shift, d->unshifted);
+  else if (isfinite(d->found) && !note[0])
+    snprintf(note, SPH_CASE_NOTE, "%.5g", d->found);
 }
 
 static int fill(const comparer *a, sph_comparison *to)

@@ -141,7 +141,8 @@ static void compare_arrival(const points *p, const sph_case_curve *reference, sp
 {
   d->largest = reference->n ? arrival(reference, d->window, d->threshold) : d->one;
   d->wanted = 1;
-  d->unshifted = d->value = fabs(arrival(p->run, d->window, d->threshold) - d->largest);
+  d->found = arrival(p->run, d->window, d->threshold);
+  d->unshifted = d->value = fabs(d->found - d->largest);
   d->used = isfinite(d->value);
 }
 
@@ -158,7 +159,38 @@ static void compare_mean(const points *p, const sph_case_curve *reference, sph_c
     d->wanted = 1;
   }
   d->used = whole ? d->wanted : 0;
-  d->unshifted = d->value = whole ? fabs(mean - wanted) : NAN;
+  d->found = whole ? mean : NAN;
+  d->unshifted = d->value = fabs(d->found - wanted);
+}
+
+static double drift(const sph_case_curve *c, const double window[2])
+{
+  double most = c->n ? 0 : NAN;
+  for (long k = 0; k < c->n; k++) {
+    double change = fabs(c->y[k] - c->y[0]);
+    if (c->x[k] >= window[0] && c->x[k] <= window[1] && !(change <= most)) most = change;
+    if (isnan(change)) return NAN;
+  }
+  return most;
+}
+
+/* Those that one number says. */
+static int compare_one(const points *p, sph_case_distance *d, sph_error *error)
+{
+  double period = NAN, decay = NAN;
+  int drifts = !strcmp(d->norm, "drift");
+  int status = drifts ? SPH_OK : sph_case_swing(p->run, d->window, &period, &decay, error);
+  d->largest = d->one;
+  d->wanted = 1;
+  d->found = drifts ? drift(p->run, d->window) : strcmp(d->norm, "decay") ? period : decay;
+  d->unshifted = d->value = fabs(d->found - d->one);
+  d->used = isfinite(d->value);
+  return status;
+}
+
+int sph_case_curve_of_one(const char *norm)
+{
+  return !strcmp(norm, "drift") || !strcmp(norm, "period") || !strcmp(norm, "decay");
 }
 
 int sph_case_curve_compare(const sph_case_curve *run, const sph_case_curve *reference,
@@ -171,7 +203,7 @@ int sph_case_curve_compare(const sph_case_curve *run, const sph_case_curve *refe
   p.y = SPH_NEW(double, reference->n, "a comparison", error);
   p.there = SPH_NEW(double, reference->n, "a comparison", error);
   int status = integral && p.x && p.y && p.there ? SPH_OK : SPH_ERR_MEMORY;
-  d->value = d->unshifted = NAN;
+  d->value = d->unshifted = d->found = NAN;
   d->shift = 0;
   d->used = d->wanted = 0;
   if (!status) {
@@ -181,6 +213,8 @@ int sph_case_curve_compare(const sph_case_curve *run, const sph_case_curve *refe
       compare_arrival(&p, reference, d);
     else if (!strcmp(d->norm, "mean"))
       compare_mean(&p, reference, d);
+    else if (sph_case_curve_of_one(d->norm))
+      status = compare_one(&p, d, error);
     else
       best_shift(&p, d);
   }

@@ -11,17 +11,18 @@ typedef struct sph_case_curve {
 
 typedef struct sph_case_distance {
   /* In: */
-  const char *norm; /* "rms", "l1", "max", "mean", "arrival" */
+  const char *norm; /* "rms", "l1", "max", "mean", "arrival", "drift", "period", "decay" */
   double offset;    /* largest time offset t0; 0: none */
   double average;   /* width of the moving average of the run */
   double window[2]; /* x of the reference that count */
   double up_to;     /* largest y of the reference that counts */
   double threshold; /* of arrival */
-  double one;       /* with reference n == 0: the one value (arrival: time) */
+  double one; /* with reference n == 0: the one value (arrival, period: time; decay: 1/time) */
   /* Out: */
   double value;      /* at the best offset; NaN: the curves say nothing */
   double unshifted;  /* at offset 0 */
   double shift;      /* the best offset t0: run(x - t0) is compared with reference(x) */
+  double found;      /* mean, arrival, drift, period, decay: that of the run; else NaN */
   double largest;    /* y of the reference that counts; arrival: its time */
   long used, wanted; /* points of the reference: compared; in the window */
 } sph_case_distance;
@@ -37,5 +38,12 @@ void sph_case_curve_integrate(const sph_case_curve *run, double *integral);
 /* "rms", "l1", "max" of a[n] - b[n], weight[n] > 0 or NULL; NaN for n == 0. */
 double sph_case_curve_norm(const char *norm, long n, const double *weight, const double *a,
                            const double *b);
+
+/* Norms that are of a run alone, and compared with one number: drift, period, decay. */
+int sph_case_curve_of_one(const char *norm);
+/* Period and rate of decay of a run that swings around zero, inside the window; NaN: too few
+ * swings.  0 or SPH_ERR_MEMORY. */
+int sph_case_swing(const sph_case_curve *run, const double window[2], double *period, double *rate,
+                   sph_error *error);
 
 #endif

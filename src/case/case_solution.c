@@ -121,6 +121,20 @@ static int taylor_green_at(const moment *m, const char *field, int c, double *to
   return SPH_OK;
 }
 
+static int square_at(const moment *m, const char *field, int c, double *to, sph_error *error)
+{
+  sph_exact_square square = {.side = get_number(m->reference, "side", 0),
+                             .omega = get_number(m->reference, "omega", 0),
+                             .rho = get_number(m->reference, "density", 0)};
+  (void)c;
+  if (!is(field, "pressure")) return SPH_CASE_NO_FIELD;
+  if (m->dim != 2)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "square: dimension %d; right is 2", m->dim);
+  for (long i = 0; i < m->n; i++)
+    to[i] = sph_exact_square_pressure(&square, m->time, m->x[0][i], m->x[1][i]);
+  return SPH_OK;
+}
+
 static int wave_at(const moment *m, const char *field, int c, double *to, sph_error *error)
 {
   sph_exact_wave wave = {.rho = get_number(m->reference, "density", 0),
@@ -217,6 +231,7 @@ static const sph_case_solution solutions[] = {
     {"channel", "a channel has velocity", SPH_CASE_ALONG_LAST, channel_at},
     {"taylor-green", "these vortices have velocity, pressure", SPH_CASE_ALONG_NONE,
      taylor_green_at},
+    {"square", "a square that begins to rotate has pressure", SPH_CASE_ALONG_NONE, square_at},
     {"heat-mode", "conduction has temperature", 0, heat_mode_at},
     {"heat-step", "conduction has temperature", 0, heat_step_at},
     {"wave", "a wave has density, velocity, pressure", 0, wave_at},

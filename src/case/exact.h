@@ -128,6 +128,18 @@ typedef struct sph_exact_flow {
 sph_exact_flow sph_exact_taylor_green_at(const sph_exact_taylor_green *vortices, double t, double x,
                                          double y);
 
+/* --- A square of liquid that begins to rotate, in 2D --- */
+
+typedef struct sph_exact_square {
+  double side;  /* [m], > 0 */
+  double omega; /* of the rotation, clockwise [1/s] */
+  double rho;   /* [kg/m^3], > 0 */
+} sph_exact_square;
+
+/* Pressure [Pa] at (x, y) [m] from the centre, t after the start, while it still is a square; 0
+ * outside. */
+double sph_exact_square_pressure(const sph_exact_square *square, double t, double x, double y);
+
 /* --- Sound of small amplitude in 1D: linear in the amplitude --- */
 
 typedef struct sph_exact_wave {

@@ -208,6 +208,52 @@ static void the_arrival_is_the_first_passage(void **state)
   assert_true(isnan(d.value) && d.used == 0);
 }
 
+/* exp(-0.3 x) cos(2 pi x/1.7 + 0.4): period and rate whatever the phase; noise around zero makes no
+ * passages. */
+static void period_and_decay_of_a_swing(void **state)
+{
+  const sph_case_curve none = {0, ref_x, ref_y};
+  sph_error error = {0};
+  (void)state;
+  make(0, 0);
+  for (int noisy = 0; noisy < 2; noisy++) {
+    for (int k = 0; k < RUN; k++)
+      run_y[k] = exp(-0.3 * run_x[k]) *
+                 (cos(2 * M_PI * run_x[k] / 1.7 + 0.4) + noisy * 0.03 * (k % 2 ? 1 : -1));
+    sph_case_distance d = plain("period");
+    d.one = 1.5;
+    assert_int_equal(sph_case_curve_compare(&run, &none, &d, &error), SPH_OK);
+    near(d.found, 1.7, noisy ? 5e-3 : 1e-4);
+    near(d.value, 0.2, noisy ? 5e-3 : 1e-4);
+    assert_true(d.used == 1 && d.wanted == 1 && d.largest == 1.5);
+    d = plain("decay");
+    d.one = 0.3;
+    assert_int_equal(sph_case_curve_compare(&run, &none, &d, &error), SPH_OK);
+    near(d.value, 0, noisy ? 5e-3 : 2e-4);
+    d.window[1] = 1.5; /* less than two swings */
+    assert_int_equal(sph_case_curve_compare(&run, &none, &d, &error), SPH_OK);
+    assert_true(isnan(d.value) && d.used == 0);
+  }
+}
+
+static void the_drift_is_the_largest_change(void **state)
+{
+  const sph_case_curve none = {0, ref_x, ref_y};
+  sph_error error = {0};
+  (void)state;
+  make(0, 0); /* y = x^2 */
+  for (int k = 0; k < RUN; k++) run_y[k] = 5 - fabs(run_x[k] - 3) + 3;
+  sph_case_distance d = plain("drift"); /* 5 at the start, 8 at x = 3, 1 at the end */
+  assert_int_equal(sph_case_curve_compare(&run, &none, &d, &error), SPH_OK);
+  near(d.value, 4, 1e-12);
+  d.window[1] = 4;
+  assert_int_equal(sph_case_curve_compare(&run, &none, &d, &error), SPH_OK);
+  near(d.value, 3, 1e-12);
+  run_y[10] = NAN;
+  assert_int_equal(sph_case_curve_compare(&run, &none, &d, &error), SPH_OK);
+  assert_true(isnan(d.value) && d.used == 0);
+}
+
 static void weights_count(void **state)
 {
   const double a[] = {1, 2, 3}, b[] = {1, 2, 5}, w[] = {1, 1, 2};
@@ -390,6 +436,8 @@ static void what_cannot_be_compared_is_told(void **state)
           "snapshots");
   refused("  - {name: v, quantity: kinetic, at: [0.1], reference: {value: 0}}\n",
           "at: belongs to solutions in space");
+  refused("  - {name: v, quantity: kinetic, norm: period, reference: {csv: {file: a.csv}}}\n",
+          "norm: drift, period, decay go with reference: value");
   refused("  - {name: v, quantity: colour, " REFERENCE "0}}}\n", "no such field");
   refused("  - {name: v, quantity: sound_speed, " REFERENCE "0}}}\n",
           "a wave has density, velocity, pressure");
@@ -410,6 +458,8 @@ int main(void)
       cmocka_unit_test(the_moving_average_is_the_mean),
       cmocka_unit_test(the_mean_of_a_plateau),
       cmocka_unit_test(the_arrival_is_the_first_passage),
+      cmocka_unit_test(period_and_decay_of_a_swing),
+      cmocka_unit_test(the_drift_is_the_largest_change),
       cmocka_unit_test(weights_count),
       cmocka_unit_test(files_are_read_and_scaled),
       cmocka_unit_test(fields_are_compared_at_several_times),

@@ -492,6 +492,42 @@ static void taylor_green(void **state)
 #undef AT
 }
 
+/* The double series that the single one sums up, and laplace p = 2 rho omega^2. */
+static double square_series(const sph_exact_square *s, double x, double y)
+{
+  const double L = s->side, w = M_PI / L;
+  double sum = 0;
+  for (int m = 1; m < 600; m += 2)
+    for (int n = 1; n < 600; n += 2)
+      sum -= 32 / (m * n * M_PI * M_PI * (m * m + n * n) * w * w) * sin(m * w * (x + L / 2)) *
+             sin(n * w * (y + L / 2));
+  return s->rho * s->omega * s->omega * sum;
+}
+
+static void square(void **state)
+{
+  (void)state;
+  const sph_exact_square s = {1.4, 0.7, 900};
+  const double unit = s.rho * s.omega * s.omega * s.side * s.side, e = 1e-3;
+#define AT(t, x, y) sph_exact_square_pressure(&s, t, x, y)
+  assert_near(AT(0, 0, 0) / unit, -0.1473427, 5e-8, "centre");
+  for (double x = -0.6; x < 0.7; x += 0.23)
+    for (double y = -0.55; y < 0.7; y += 0.27) {
+      double laplacian = (AT(0, x + e, y) + AT(0, x - e, y) + AT(0, x, y + e) + AT(0, x, y - e) -
+                          4 * AT(0, x, y)) /
+                         (e * e);
+      assert_near(AT(0, x, y) / unit, square_series(&s, x, y) / unit, 2e-6, "double series");
+      assert_near(laplacian / (2 * s.rho * s.omega * s.omega), 1, 1e-3, "laplacian");
+      double a = s.omega * 0.9; /* clockwise: (x, y) has come to where v = omega (y, -x) leads */
+      assert_near(AT(0.9, x * cos(a) + y * sin(a), y * cos(a) - x * sin(a)), AT(0, x, y),
+                  1e-10 * unit, "turned");
+    }
+  assert_near(AT(0, 0.7, 0.2), 0, 0, "side");
+  assert_near(AT(0, 0.2, -0.71), 0, 0, "outside");
+  assert_near(AT(0, 0.6999999, 0.2) / unit, 0, 5e-6, "near a side");
+#undef AT
+}
+
 /* d rho/dt = -rho0 dv/dx, rho0 dv/dt = -dp/dx, dp = c^2 d rho. */
 static void wave(void **state)
 {
@@ -703,6 +739,7 @@ int main(void)
       cmocka_unit_test(heat),
       cmocka_unit_test(heat_refusals),
       cmocka_unit_test(taylor_green),
+      cmocka_unit_test(square),
       cmocka_unit_test(wave),
       cmocka_unit_test(dusty_box),
       cmocka_unit_test(dusty_wave),

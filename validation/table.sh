@@ -1,0 +1,171 @@
+# The table of validations, read by validation/validate, which says what its words mean: one entry a page of docs/validation,
+# in the order of the front page.  Bars stand in the case files and in the tests; `because` tells why one is missed.
+
+group "Operators and right-hand side"
+
+page kernels "tests: Kernels" kernels
+tests unit/test_kernel "every kernel in every dimension: table; integral; derivative" "table; quadrature, differentiation (GSL)" "1e-12; 1e-10; 1e-8"
+
+page operators "tests: Operators: what they reproduce exactly, and their orders" operators
+tests property/test_operator_exact "constants, lines, parabolas on jittered points" "polynomials" "1e-11 of the sum of absolute values"
+tests accuracy/test_operator_orders "orders on lattices and jittered points" "analysis" "± 0.15 of the order expected"
+
+page conservation "tests: What the right-hand side keeps" right-hand-side
+tests property/test_conservation "momentum, angular momentum, energy of every pair term; heating; entropy" "conservation laws" "1e-13; signs exact"
+tests property/test_conservation_terms "the same of the other fluid terms" "conservation laws" "1e-13; signs exact"
+tests property/test_rhs "right-hand side, random states" "brute force in long double" "1e-14 of the sum of absolute values"
+
+page viscosity "tests: Effective viscosity on a lattice" terms
+tests accuracy/test_viscosity "Morris in 2D, effective over nominal viscosity" "shear flow" "within 0.5 %" \
+  '2D, 100 across, h = 1.5 dx: Morris \([0-9.]*\)' "100 across, h = 1.5 dx"
+
+page lattice-sound "tests: Sound on a lattice" exact-solutions
+tests accuracy/test_acoustics "frequency of lattice waves, all kernels" "discrete dispersion relation" "1e-9"
+
+page jacobians "tests: Jacobians and tangents" derivatives
+tests property/test_jacobian "sparse Jacobian" "central differences" "1e-6"
+tests property/test_tangent "tangents of f" "central differences" "1e-6"
+
+page riemann "tests: The exact Riemann solver" exact-solutions
+tests unit/test_exact "star values of Sod's and of Toro's tests" "published values" "1e-9"
+
+group "Incompressible and free-surface flow"
+
+page couette couette-2d terms
+runs "h/dx = 1.5" parameters.n "25 50 100"
+judge 50
+picture 50 compare_0 "velocities of all particles and the series at five times"
+runs "h/dx = 2" parameters.n "25 50 100" --set kernel.h_over_dx=2
+judge 50
+tests accuracy/test_channel "Couette and Poiseuille: orders at early times, and with h/dx growing" "exact series" "≥ 1; ≥ 1.5 in h"
+
+page poiseuille poiseuille-2d terms
+runs "h/dx = 1.5" parameters.n "25 50 100"
+judge 50
+picture 50 compare_0 "velocities of all particles and the series at five times"
+runs "h/dx = 2" parameters.n "25 50 100" --set kernel.h_over_dx=2 --set compare.0.bar=0.0015
+judge 50
+say "At a fixed h/dx a floor of about 0.3 % remains, the error of the Laplacian on a lattice: the order is one of h, told by" \
+  "the test on the page [couette](couette.md)."
+
+page taylor-green taylor-green-2d terms
+runs "Jittered start, no shifting" parameters.dx "L/25 L/50 L/100"
+judge L/50
+picture L/50 compare_0 "velocities of all particles over the exact ones at three times"
+picture L/50 frames "speed"
+
+missing "Taylor-Green vortices with shifting" "with the case file that has it"
+missing "lid-driven cavity, Re = 100 and 400" "with the case file lid-driven-cavity-2d.yml"
+
+page hydrostatic hydrostatic-tank-2d walls
+because '^pressure' "the layers at the floor rearrange themselves"
+runs "Diffusion of Antuono, H/dx = 20, until" run.end "10*T 60*T 120*T"
+judge 120*T '^pressure'
+judge 60*T '^kinetic'
+runs "Diffusion of Fourtakas, walls that may pull, until" run.end "10*T 60*T 120*T" --set terms.delta.model=fourtakas --set groups.tank.boundary.tension=true
+judge 120*T '^pressure'
+runs "Diffusion of Molteni: its drift, until" run.end "10*T 60*T" --set terms.delta.model=molteni
+say "Dynamic boundary conditions (DBC) are not here: there is nothing to report of their drift."
+
+page standing-wave standing-wave-2d terms
+runs "Re = 50" parameters.dx "H/20 H/40"
+judge H/40
+curves momentum "Momentum along the tank" 'column("time [s]")' 'column("momentum_x [kg/s]")' \
+  'set xlabel "time [s]"' 'set ylabel "momentum along x [kg/s]"' \
+  'set samples 800' 'set dummy x' 'w = sqrt(9.81*pi*tanh(pi))' \
+  '2000*0.02*w/pi**2*cos(w*(1 - sqrt(2)*0.02**1.5)*x)*exp(-2*0.02*w*(1 - sqrt(0.01))*x) with lines lc "black" dt 2 title "linear theory"'
+runs "Re = 200, eight periods: more of the damping is numerical" parameters.dx "H/20 H/40" --set parameters.q=0.005 --set "run.end=8*T"
+
+page oscillating-drop oscillating-drop-2d exact-solutions
+because 'semi-axis' "a drop with this viscosity is damped as it must be, the exact one is not"
+runs "Artificial viscosity, alpha = 0.02" parameters.dx "R/20 R/40"
+judge R/20
+runs "No viscosity" parameters.dx "R/20 R/40" --set terms.viscosity-artificial.alpha=0 --set compare.0.bar=2e-3 --set compare.1.bar=2e-3
+judge R/20
+curves axes "Semi-axis along x, no viscosity" 'column("time [s]")' 'column("a [m]")' 'set xlabel "time [s]"' 'set ylabel "a [m]"'
+picture R/20 frames "pressure"
+
+page elliptical-patch elliptical-patch-2d exact-solutions
+runs "h/dx = 2.5" parameters.dx "R/20 R/40"
+judge R/20
+picture R/20 frames "pressure"
+
+page rotating-square rotating-square-2d exact-solutions
+runs "Exact pressure at the start" parameters.n "25 50 100"
+judge 50 '^pressure$'
+picture 50 compare_0 "pressures of all particles over the exact ones at five times"
+runs "No pressure at the start" parameters.n "25 50 100" --set parameters.start=0
+judge 50 centre
+curves centre "Pressure in the centre, no pressure at the start" 'column("time [s]")' 'column("centre [Pa]")/1000' \
+  'set xlabel "time [1/omega]"' 'set ylabel "p/(rho omega^2 L^2)"' '-0.1473427 with lines lc "black" dt 2 title "exact"'
+runs "Slower sound, until 1/omega" parameters.n "25 50" --set parameters.start=0 --set "parameters.c=10*omega*L" --set run.end=1/omega
+judge 50 angular
+say "In the last set only the angular momentum is of use: the square is none any more."
+
+page dam-break-front dam-break-2d walls
+runs "Whole runs" parameters.dx "H/40 H/80"
+judge H/80 '^front, '
+picture H/80 compare_1 "front against Martin & Moyce, 2.25 in, with the offset fitted"
+picture H/80 frames "speed"
+runs "Convergence at T = 2" parameters.dx "H/40 H/80 H/160" --set "run.end=2.2*T"
+judge H/80 'T = 2'
+judge H/160 'T = 2'
+settles "front at T = 2"
+
+page dam-break-pressure dam-break-2d-impact walls
+because '^pressure' "the pressure rises 0.05 sqrt(H/g) later than in the experiment"
+runs "Resolutions" parameters.dx "H/40 H/80"
+judge H/80
+curves pressure "Pressure on the far wall, y = 0.2 H, unfiltered" 'column("time [s]")/sqrt(0.6/9.81)' 'column("p1 [Pa]")/(1000*9.81*0.6)' \
+  'set xlabel "t sqrt(g/H)"' 'set ylabel "p/(rho g H)"' 'set yrange [-0.2:2.5]' \
+  '"data/buchner_2002_p1.csv" using 1:2 with points pt 7 ps 0.7 lc "black" title "Buchner (2002)"'
+picture H/80 frames "pressure"
+
+page dam-break-3d dam-break-3d-lobovsky walls
+runs "Resolutions, H/dx" parameters.n "10 20 30"
+judge 30
+curves pressure "Pressure on the far wall at P1, unfiltered" 'column("time [s]")/sqrt(0.3/9.81)' 'column("p1 [Pa]")/(1000*9.81*0.3)' \
+  'set xlabel "t sqrt(g/H)"' 'set ylabel "p/(rho g H)"' \
+  '"data/lobovsky_2014_p1.csv" using 1:2 with points pt 7 ps 0.7 lc "black" title "Lobovsky et al. (2014)"'
+picture 30 frames "pressure"
+
+group "Compressible flow"
+
+page acoustic-wave acoustic-wave-1d exact-solutions
+runs "One period" parameters.n "32 64 128 256 512"
+judge 128
+order velocity 1.9
+picture 128 compare_0 "velocities of all particles at four times"
+
+page sod sod-1d exact-solutions
+runs "Equal spacing, masses 8:1" parameters.n "100 200 400 800"
+judge 400
+picture 400 compare_0 "density"
+picture 400 compare_1 "velocity"
+tests accuracy/test_sod "plateaus of velocity, density and pressure, 400 particles" "exact solution" "2 %"
+
+page heat-slab heat-slab-1d terms
+runs "Resolutions" parameters.dx "L/50 L/100 L/200"
+judge L/100
+picture L/100 compare_0 "temperatures of all particles at four times"
+
+page heat-two-media heat-two-media-1d terms
+runs "Resolutions" parameters.dx "L/50 L/100 L/200"
+judge L/100
+picture L/100 compare_0 "temperatures of all particles at three times"
+
+group "Time integration"
+
+page order "tests: Orders of the integrators" time-integration
+tests accuracy/test_order "every scheme on smooth SPH problems (Wendland C6)" "Richardson" "≥ order − 0.1"
+tests accuracy/test_order_imex "implicit-explicit schemes" "Richardson" "≥ order − 0.1"
+tests unit/test_integrator "every scheme on smooth ODEs; dense output" "exact solutions" "≥ order − 0.1"
+
+elsewhere "work-precision diagrams" "published in [integrators.md](../integrators.md), by \`make work-precision\`; the recommended default is on their front"
+
+page events "tests: Events" time-integration
+tests unit/test_root "roots in the dense output of a step" "exact times" "1e-6 of a step"
+tests property/test_events "events of runs" "exact times" "1e-6 of a step"
+
+page restart "tests: Restart" time-integration
+tests property/test_checkpoint "restarted = uninterrupted, every integrator, fixed and adaptive steps" "the uninterrupted run" "bitwise"
