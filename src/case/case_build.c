@@ -42,11 +42,46 @@ static int axis_of(const char *word) { return word[0] - 'x'; }
 
 /* ---- groups */
 
-static int set_boundary(builder *b, sph_group *group, const sph_case_node *map)
+/* "x- y+ ", of a list. */
+static const char *open_sides(const sph_case_node *shape, char *text, size_t room)
 {
-  const sph_case_node *motion = child_of(map, "motion");
+  const sph_case_node *list = child_of(shape, "open"), *side = list ? list->first : NULL;
+  for (size_t n = 0; side; side = side->next, n = strlen(text))
+    snprintf(text + n, room - n, "%s ", side->text);
+  return text;
+}
+
+static int is_mirror(const sph_case_node *group)
+{
+  return !strcmp(get_text(child_of(group, "boundary"), "model", "adami"), "mirror");
+}
+
+/* The planes of a mirror: from its shapes. */
+static int add_planes(const builder *b, const sph_case_node *shape, sph_boundary *boundary)
+{
+  double one[3], other[3];
+  char open[32] = "";
+  const int plane = !strcmp(shape->key, "plane");
+  if (!plane && strcmp(shape->key, "layers"))
+    return fail(b, shape, "a mirror has planes: right are layers, the sides of a box, or plane");
+  get_vector(shape, plane ? "point" : "lower", one);
+  get_vector(shape, plane ? "normal" : "upper", other);
+  if (plane)
+    sph_boundary_mirror_plane(boundary, one, other, b->c->dim);
+  else
+    sph_boundary_mirror_box(boundary, one, other, open_sides(shape, open, sizeof open), b->c->dim);
+  return SPH_OK;
+}
+
+static int set_boundary(builder *b, sph_group *group, const sph_case_node *of)
+{
+  const sph_case_node *map = child_of(of, "boundary"), *motion = child_of(map, "motion");
+  const sph_case_node *shape = is_mirror(of) ? child_of(of, "shapes")->first : NULL;
   sph_boundary boundary = sph_boundary_adami();
   boundary.name = get_text(map, "model", "adami");
+  boundary.heat_flux = get_number(map, "heat_flux", 0);
+  for (int status; shape; shape = shape->next)
+    if ((status = add_planes(b, shape->first, &boundary))) return status;
   boundary.no_slip = get_number(map, "no_slip", 0) != 0;
   boundary.tension = get_number(map, "tension", 0) != 0;
   boundary.temperature = get_number(map, "temperature", 0);
@@ -63,13 +98,15 @@ static int set_boundary(builder *b, sph_group *group, const sph_case_node *map)
     b->motions.of[b->motions.n++].motion = s;
   }
   sph_group_set_boundary(group, boundary);
-  return told(b, map);
+  return told(b, map ? map : of);
 }
 
 static int add_shape(const builder *b, sph_group *group, const sph_case_node *shape, double density)
 {
   double lower[3], upper[3], centre[3];
   char open[32] = "";
+  if (!strcmp(shape->key, "plane"))
+    return fail(b, shape, "a plane is a shape of walls with boundary: {model: mirror} alone");
   density = get_number(shape, "density", density);
   get_vector(shape, "lower", lower);
   get_vector(shape, "upper", upper);
@@ -82,10 +119,7 @@ static int add_shape(const builder *b, sph_group *group, const sph_case_node *sh
   } else if (!strcmp(shape->key, "box")) {
     sph_group_add_box(group, lower, upper, density);
   } else {
-    const sph_case_node *list = child_of(shape, "open"), *side = list ? list->first : NULL;
-    for (size_t n = 0; side; side = side->next, n = strlen(open))
-      snprintf(open + n, sizeof open - n, "%s ", side->text);
-    sph_group_add_layers(group, lower, upper, open, density);
+    sph_group_add_layers(group, lower, upper, open_sides(shape, open, sizeof open), density);
   }
   return told(b, shape);
 }
@@ -119,15 +153,17 @@ static int build_group(builder *b, const sph_case_node *map)
     sph_group_set_energy(group, get_text(map, "energy", ""));
     status = told(b, child_of(map, "energy"));
   }
-  for (; shape && !status; shape = shape->next) status = add_shape(b, group, shape->first, density);
+  for (; shape && !status && !(wall && is_mirror(map)); shape = shape->next)
+    status = add_shape(b, group, shape->first, density);
   if (!status && get_number(map, "jitter", 0) > 0) {
     sph_group_jitter(group, get_number(map, "jitter", 0),
                      (unsigned long)get_number(map, "seed", 1));
     status = told(b, map);
   }
-  if (!status && wall) status = set_boundary(b, group, boundary);
+  if (!status && wall) status = set_boundary(b, group, map);
   if (!status) status = set_scales(b, group, map);
-  if (!status && sph_group_count(group) == 0) status = fail(b, map, "the group has no particles");
+  if (!status && sph_group_count(group) == 0 && !(wall && is_mirror(map)))
+    status = fail(b, map, "the group has no particles");
   return status;
 }
 
@@ -241,25 +277,6 @@ static int add_heating(const builder *b, const sph_case_node *map)
   return told(b, map);
 }
 
-static sph_term shifting(const sph_case_node *map)
-{
-  sph_term term = sph_term_shifting(get_text(map, "form", NULL), get_number(map, "speed", 0));
-  term.strength = get_number(map, "strength", 1);
-  term.crowding = get_number(map, "crowding", 0);
-  term.surface = get_number(map, "surface", 1) != 0;
-  term.advection = get_number(map, "advection", 1) != 0;
-  term.steps = (long)get_number(map, "steps", 0);
-  return term;
-}
-
-static sph_term transport(const sph_case_node *map)
-{
-  sph_term term =
-      sph_term_transport_velocity(get_number(map, "background", 0), get_number(map, "time", 0));
-  term.advection = get_number(map, "advection", 1) != 0;
-  return term;
-}
-
 sph_term sph_case_build_term(const sph_case_node *map)
 {
   const char *name = map->key, *form = get_text(map, "form", NULL);
@@ -275,10 +292,6 @@ sph_term sph_case_build_term(const sph_case_node *map)
   if (!strcmp(name, "viscosity-laminar")) return sph_term_viscosity_laminar(form);
   if (!strcmp(name, "conduction")) return sph_term_conduction();
   if (!strcmp(name, "xsph")) return sph_term_xsph(get_number(map, "epsilon", 0));
-  if (!strcmp(name, "shifting")) return shifting(map);
-  if (!strcmp(name, "transport-velocity")) return transport(map);
-  if (!strcmp(name, "stress-artificial"))
-    return sph_term_stress_artificial(alpha, get_number(map, "beta", 0));
   if (!strcmp(name, "pressure")) return sph_term_pressure_form(form);
   if (!strcmp(name, "viscosity-artificial"))
     return sph_term_viscosity_artificial(alpha, get_number(map, "beta", 0));

@@ -207,8 +207,19 @@ static void materials(void **state)
   refused_eos((sph_eos){.name = "mine"}, "mine", "one without functions");
 
   refused_boundary((sph_boundary){0}, "adami", "an empty boundary");
-  refused_boundary((sph_boundary){.name = "mirror"}, "mirror", "boundary");
-  refused_boundary((sph_boundary){.name = "mirror"}, "adami", "boundary: the known ones");
+  refused_boundary((sph_boundary){.name = "rubber"}, "rubber", "boundary");
+  refused_boundary((sph_boundary){.name = "rubber"}, "adami", "boundary: the known ones");
+  refused_boundary(sph_boundary_mirror(), "0 planes", "a mirror without planes");
+  sph_boundary mirror = sph_boundary_mirror();
+  sph_boundary_mirror_plane(&mirror, (double[]){0, 0}, (double[]){0, NAN}, 2);
+  refused_boundary(mirror, "normal", "a normal that is no number");
+  mirror = sph_boundary_mirror();
+  sph_boundary_mirror_box(&mirror, (double[]){0, 0}, (double[]){1, 1}, "north", 2);
+  refused_boundary(mirror, "sides of a box", "an open side that is none");
+  for (int k = 0; k < 9; k++)
+    sph_boundary_mirror_plane(&mirror, (double[]){0, 0}, (double[]){0, 1}, 2);
+  refused_boundary(mirror, "1 to 6", "too many planes");
+  sph_boundary_mirror_plane(NULL, NULL, NULL, 2), sph_boundary_mirror_box(NULL, NULL, NULL, "", 2);
 }
 
 static void refused_material(sph_material material, const char *word, const char *what)

@@ -80,6 +80,7 @@ typedef struct variant {
   const char *energy; /* NULL: default; with conduction, laminar viscosity, a heat source */
   int scalar;         /* a term with one, and with a pair function */
   int dust;           /* with drag */
+  const char *walls;  /* their model; NULL: adami */
 } variant;
 
 static void add_row(sph_sim *sim, const variant *v)
@@ -184,12 +185,17 @@ static int attach_and_run(sph_sim *sim, const variant *v)
 {
   sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1, 0.5}, 1000);
   sph_group *floor = sph_group_create(sim, "floor", "wall");
-  sph_group_add_layers(floor, (double[]){0, 0}, (double[]){1, 0.8}, v->periodic ? "x- x+ y+" : "y+",
-                       1000);
+  const double lo[] = {0, 0}, hi[] = {1, 0.8};
+  const char *open = v->periodic ? "x- x+ y+" : "y+", *model = v->walls ? v->walls : "adami";
   sph_eos eos = v->thermal ? sph_eos_ideal_gas(1.4) : sph_eos_tait(1000, 20, 7);
   eos.ctx = &let_go[EOS], eos.free = count, eos.c_v = 700;
   sph_group_set_eos(water, eos);
   sph_boundary boundary = sph_boundary_adami_no_slip();
+  boundary.name = model;
+  if (!strcmp(model, "mirror"))
+    sph_boundary_mirror_box(&boundary, lo, hi, open, 2);
+  else
+    sph_group_add_layers(floor, lo, hi, open, 1000);
   boundary.temperature = v->energy ? 0.2 : 0;
   boundary.motion = slide, boundary.ctx = &let_go[BOUNDARY], boundary.free = count;
   sph_group_set_boundary(floor, boundary);
@@ -260,16 +266,18 @@ static void each_allocation_fails(const variant *v)
 }
 
 static const variant variants[] = {
-    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, C2, NULL, 0, 0},
-    {"leapfrog", "brute-force", 1, 0, C2, NULL, 0, 1},
-    {"verlet", NULL, 1, 1, C2, NULL, 0, 0},
-    {"leapfrog", NULL, 0, 0, SUMMED, "temperature", 1, 1},
-    {"erk:bogacki-shampine-4-2-3", NULL, 1, 1, SUMMED, "entropy", 0, 0},
-    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, PHI, "u", 1, 0},
-    {"leapfrog", NULL, 0, 1, PHI, "total", 1, 1},
-    {"imex:ark324l2sa-4-2-3", NULL, 1, 1, C2, "total", 0, 0},
-    {"imex:ark324l2sa-4-2-3", NULL, 0, 0, C2, "temperature", 1, 1},
-    {"mri:kw3", NULL, 1, 0, C2, NULL, 0, 0},
+    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, C2, NULL, 0, 0, NULL},
+    {"leapfrog", "brute-force", 1, 0, C2, NULL, 0, 1, NULL},
+    {"verlet", NULL, 1, 1, C2, NULL, 0, 0, NULL},
+    {"leapfrog", NULL, 0, 0, SUMMED, "temperature", 1, 1, NULL},
+    {"erk:bogacki-shampine-4-2-3", NULL, 1, 1, SUMMED, "entropy", 0, 0, NULL},
+    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, PHI, "u", 1, 0, NULL},
+    {"leapfrog", NULL, 0, 1, PHI, "total", 1, 1, NULL},
+    {"imex:ark324l2sa-4-2-3", NULL, 1, 1, C2, "total", 0, 0, NULL},
+    {"imex:ark324l2sa-4-2-3", NULL, 0, 0, C2, "temperature", 1, 1, NULL},
+    {"mri:kw3", NULL, 1, 0, C2, NULL, 0, 0, NULL},
+    {"erk:bogacki-shampine-4-2-3", NULL, 1, 0, C2, NULL, 0, 0, "dbc"},
+    {"leapfrog", NULL, 1, 1, PHI, "total", 1, 0, "mirror"},
 };
 enum { VARIANTS = sizeof variants / sizeof *variants };
 
