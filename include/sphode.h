@@ -11,6 +11,7 @@
 #include "sphode/checkpoint.h"
 #include "sphode/eos.h"
 #include "sphode/event.h"
+#include "sphode/export.h"
 #include "sphode/field.h"
 #include "sphode/group.h"
 #include "sphode/integrator.h"

@@ -22,6 +22,9 @@ typedef struct prog_options {
   const char *q;     /* "0,0.25,1.3" */
   const char *field; /* NULL: that of the case */
   int frames;        /* 0: that of the case */
+  /* export */
+  int vtu, gadget, single;
+  const char *fields; /* NULL: all */
   /* work-precision: lists with commas between; NULL: the defaults. */
   const char *integrators, *tolerances, *cfl, *reference;
   const char *until; /* NULL: the end of the case */
@@ -38,6 +41,7 @@ int sph_prog_restart(const prog_options *o);
 int sph_prog_check(const prog_options *o);
 int sph_prog_info(const prog_options *o);
 int sph_prog_plot(const prog_options *o);
+int sph_prog_export(const prog_options *o);
 int sph_prog_work_precision(const prog_options *o);
 int sph_prog_spectrum(const prog_options *o);
 

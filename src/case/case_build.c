@@ -277,6 +277,25 @@ static int add_heating(const builder *b, const sph_case_node *map)
   return told(b, map);
 }
 
+static sph_term shifting(const sph_case_node *map)
+{
+  sph_term term = sph_term_shifting(get_text(map, "form", NULL), get_number(map, "speed", 0));
+  term.strength = get_number(map, "strength", 1);
+  term.crowding = get_number(map, "crowding", 0);
+  term.surface = get_number(map, "surface", 1) != 0;
+  term.advection = get_number(map, "advection", 1) != 0;
+  term.steps = (long)get_number(map, "steps", 0);
+  return term;
+}
+
+static sph_term transport(const sph_case_node *map)
+{
+  sph_term term =
+      sph_term_transport_velocity(get_number(map, "background", 0), get_number(map, "time", 0));
+  term.advection = get_number(map, "advection", 1) != 0;
+  return term;
+}
+
 sph_term sph_case_build_term(const sph_case_node *map)
 {
   const char *name = map->key, *form = get_text(map, "form", NULL);
@@ -292,6 +311,10 @@ sph_term sph_case_build_term(const sph_case_node *map)
   if (!strcmp(name, "viscosity-laminar")) return sph_term_viscosity_laminar(form);
   if (!strcmp(name, "conduction")) return sph_term_conduction();
   if (!strcmp(name, "xsph")) return sph_term_xsph(get_number(map, "epsilon", 0));
+  if (!strcmp(name, "shifting")) return shifting(map);
+  if (!strcmp(name, "transport-velocity")) return transport(map);
+  if (!strcmp(name, "stress-artificial"))
+    return sph_term_stress_artificial(alpha, get_number(map, "beta", 0));
   if (!strcmp(name, "pressure")) return sph_term_pressure_form(form);
   if (!strcmp(name, "viscosity-artificial"))
     return sph_term_viscosity_artificial(alpha, get_number(map, "beta", 0));

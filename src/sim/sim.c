@@ -152,9 +152,14 @@ void sph_sim_add_term(sph_sim *sim, sph_term term)
                  term.name ? term.name : "");
     kept = 0;
   }
+  const int between = term.name && !strcmp(term.name, "shifting") && term.steps > 0;
   if (kept && sph_term_set_add(&sim->terms, &term, &sim->error) == SPH_OK)
     for (int g = 0; g < sim->groups; g++) sph_group_scalars_added(sim->group[g]);
   if (!kept && term.free) term.free(term.ctx);
+  if (kept && between)
+    sph_sim_add_modifier(sim, (sph_modifier){.name = "shifting",
+                                             .steps = term.steps,
+                                             .modify = sph_sim_shift_step});
 }
 
 void sph_sim_set_scale(sph_sim *sim, const sph_group *group, const char *field, double scale)

@@ -28,7 +28,7 @@ enum { SPH_WHOLE = SPH_PIECE_COUNT, SPH_PARTS };
 /* Bits of terms, not of how they are added up. */
 enum {
   SPH_PAIR_TERMS = SPH_CONTINUITY | SPH_PRESSURE_FORCE | SPH_VISCOUS | SPH_DIFFUSION |
-                   SPH_CONDUCTIVITY | SPH_CONDUCTION | SPH_XSPH
+                   SPH_CONDUCTIVITY | SPH_CONDUCTION | SPH_XSPH | SPH_STRESS
 };
 
 /* A part of f: its terms, and the phases that an evaluation of them needs (sim_parts.c). */
@@ -40,8 +40,8 @@ typedef struct sph_part {
   /* What its evaluations limit: steps by waves and motion, and these terms. */
   int acoustic, motion;
   unsigned limit_terms, limit_called;
-  int lists, density, eos, walls, gradients, drag, pairs; /* phases */
-  int only_walls;                                         /* pairs: of fluids with walls alone */
+  int lists, density, eos, walls, gradients, shift, drag, pairs; /* phases */
+  int only_walls; /* pairs: of fluids with walls alone */
   /* Registered pair terms, the fields that they read, what they add to. */
   int tiles;
   unsigned tile_fields, tile_adds;
@@ -56,6 +56,7 @@ typedef struct sph_sorted {
   double *sum[SPH_PAIR_SUMS]; /* [room]; NULL for those that no loop makes */
   double *phi;                /* of the row phi, not sorted, [room]; NULL: another row */
   double *built[3];           /* positions at the last list build, not sorted, [capacity] */
+  double *shifted;            /* records of shift_pair.h, as many; NULL: nothing shifts */
 } sph_sorted;
 
 typedef struct sph_outlet {
@@ -147,9 +148,11 @@ struct sph_sim {
   int fluid_sums;      /* sums that its loops make */
   int needs_temperature;
   sph_part part[SPH_PARTS];
-  struct sph_implicit *implicit;          /* solves stages of the implicit part; NULL without one */
-  fluid_constants constants;              /* of no interaction: for walls and gradients */
-  double F_scale, W_scale;                /* sigma/h^(d+2), sigma/h^d */
+  struct sph_implicit *implicit; /* solves stages of the implicit part; NULL without one */
+  fluid_constants constants;     /* of no interaction: for walls and gradients */
+  long surface;                  /* fluid particles at a free surface, in the last evaluation
+                                             of what shifts */
+  double F_scale, W_scale;       /* sigma/h^(d+2), sigma/h^d */
   double scale[SPH_SETS_MAX][SPH_FIELDS]; /* error weights: scale of each field */
   double step_scale_v;                    /* V of the error weights [m/s] */
   double given[SPH_CHANGEABLE];           /* parameters at the start (sim_keep.c) */

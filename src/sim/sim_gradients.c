@@ -9,8 +9,7 @@
 
 static const double LEAST_EIGENVALUE = 0.4;
 
-/* Cholesky of the dim x dim matrix A - shift I; 0 where it is not positive definite. */
-static int cholesky(int dim, double A[3][3], double shift, double L[3][3])
+int sph_sim_gradients_cholesky(int dim, double A[3][3], double shift, double L[3][3])
 {
   for (int a = 0; a < dim; a++)
     for (int b = 0; b <= a; b++) {
@@ -42,7 +41,8 @@ int sph_sim_gradients_factor(const sph_sim *sim, double *const *matrix, long s, 
   memset(L, 0, 9 * sizeof(double));
   for (int a = 0; a < sim->dim; a++)
     for (int b = a; b < sim->dim; b++) M[a][b] = M[b][a] = sim->F_scale * matrix[k++][s];
-  return cholesky(sim->dim, M, LEAST_EIGENVALUE, L) && cholesky(sim->dim, M, 0, L);
+  return sph_sim_gradients_cholesky(sim->dim, M, LEAST_EIGENVALUE, L) &&
+         sph_sim_gradients_cholesky(sim->dim, M, 0, L);
 }
 
 static void finish(const sph_sim *sim, sph_sorted *sorted, long s)

@@ -78,10 +78,14 @@ fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part
                        .signal_1 = -set->signal_alpha,
                        .signal_2 = set->signal_beta,
                        .alpha_u = set->alpha_u,
-                       .epsilon = set->epsilon};
+                       .epsilon = set->epsilon,
+                       .stress_tension = set->stress_alpha,
+                       .stress_pressure = set->stress_beta};
   material(sim, target, source, &k);
   if (k.laminar == 0) k.terms &= ~(unsigned)(SPH_MORRIS | SPH_MCG);
   if (k.conduction == 0) k.terms &= ~(unsigned)SPH_CONDUCTION;
+  if (k.terms & SPH_STRESS)
+    k.inverse_w_dx = sim->W_scale / sph_kernel_w(sim->kernel, sim->dim, sim->dx, h);
   if (k.terms & SPH_FOURTAKAS) column(sim, &target->eos, &k);
   return k;
 }

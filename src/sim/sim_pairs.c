@@ -156,11 +156,19 @@ void sph_sim_pairs_clear(sph_sim *sim, int g, int sums)
 void sph_sim_pairs_loop(sph_sim *sim, sph_pair_function *loop, int target, int source,
                         const void *constants)
 {
+  sph_sim_pairs_loop_records(sim, loop, target, source, NULL, NULL, 0, constants);
+}
+
+void sph_sim_pairs_loop_records(sph_sim *sim, sph_pair_function *loop, int target, int source,
+                                const double *record, const double *source_record, long stride,
+                                const void *constants)
+{
   const sph_list list = sph_neighbors_list(sim->neighbors, target, source);
-  const sph_pair_task task = {.target = sim->sorted[target].record,
-                              .source = sim->sorted[source].record,
-                              .target_stride = sim->sorted[target].stride,
-                              .source_stride = sim->sorted[source].stride,
+  const sph_sorted *to = &sim->sorted[target], *from = &sim->sorted[source];
+  const sph_pair_task task = {.target = record ? record : to->record,
+                              .source = record ? source_record : from->record,
+                              .target_stride = record ? stride : to->stride,
+                              .source_stride = record ? stride : from->stride,
                               .first = list.first,
                               .runs = list.runs,
                               .shift = sph_neighbors_shifts(sim->neighbors, NULL),

@@ -19,6 +19,7 @@
 static const unsigned bits_of[] = {
     SPH_CONTINUITY,   SPH_PRESSURE_FORCE, SPH_ARTIFICIAL, SPH_SIGNAL, SPH_MORRIS | SPH_MCG,
     SPH_CONDUCTIVITY, SPH_CONDUCTION,     SPH_DIFFUSION,  SPH_DRAG,   SPH_UNIFORM,
+    SPH_SHIFTING,     SPH_TRANSPORT,      SPH_STRESS,
 };
 enum { BUILT_IN = sizeof bits_of / sizeof *bits_of };
 
@@ -100,6 +101,7 @@ static int evaluate(sph_sim *sim, unsigned bits, const sph_called_term *call, N_
   e.part = &part;
   status = sph_sim_bodies_add(&e);
   if (!status) status = sph_sim_gradients(&e);
+  if (!status) status = sph_sim_shift_add(&e);
   if (!status) status = sph_sim_drag_add(&e);
   if (!status) status = sph_sim_pairs_add(&e);
   if (status > 0) status = sph_sim_fail(sim, SPH_ERR_STEP, "t = %g s: %s", sim->time, sim->retry);

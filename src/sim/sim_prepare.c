@@ -7,6 +7,7 @@
 #include "eos_table.h"
 #include "gradient_pair.h"
 #include "memory.h"
+#include "shift_pair.h"
 #include "sim_dominant.h"
 #include "sim_energy.h"
 #include "sim_fit.h"
@@ -130,15 +131,49 @@ static int check_fourtakas(sph_sim *sim, const sph_group *group)
                       group->name, eos->name, x);
 }
 
+/* What follows the particles where they shift: density and velocity of one liquid. */
+static int check_advection(sph_sim *sim, const sph_group *group, const sph_group *first)
+{
+  const unsigned bits = sim->terms.bits;
+  const char *name = bits & SPH_SHIFTING ? "shifting" : "transport-velocity";
+  if (!(bits & SPH_SHIFTS)) return SPH_OK;
+  if (!sph_sim_interaction_same_fluid(group, first))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "%s: density would follow across from %s to %s, which differ in reference "
+                        "density or sound speed; right is advection = 0",
+                        name, first->name, group->name);
+  if (sph_group_data_energy(group) >= 0 || sim->terms.scalars)
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "%s: density and velocity follow the particles of %s, but not its %s; "
+                        "right is advection = 0",
+                        name, group->name,
+                        sim->terms.scalars ? sim->terms.scalar[0].name : sph_group_energy(group));
+  return SPH_OK;
+}
+
+static int check_shift(sph_sim *sim, const sph_group *group, const sph_group *first)
+{
+  const sph_term *shift = &sim->terms.shift;
+  if ((sim->terms.bits & SPH_TRANSPORT) && !(group->eos.c0 > 0 && group->eos.rho0 > 0))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "transport-velocity: equation of state %s of %s has no reference density "
+                        "and sound speed (rho0 = %g, c0 = %g)",
+                        group->eos.name, group->name, group->eos.rho0, group->eos.c0);
+  return shift->advection ? check_advection(sim, group, first) : SPH_OK;
+}
+
 static int check_terms(sph_sim *sim)
 {
   double viscosity = 0, conductivity = 0;
   int status = SPH_OK, dusty = 0;
+  const sph_group *first = NULL;
   for (int g = 0; !status && g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
     dusty |= group->eos.dust;
     if (group->wall || group->eos.dust) continue;
+    if (!first) first = group;
     status = check_heat(sim, group);
+    if (!status) status = check_shift(sim, group, first);
     if (!status && (sim->terms.bits & SPH_DIFFUSION) && sim->terms.delta > 0 &&
         !(group->eos.c0 > 0))
       status = sph_sim_fail(
@@ -223,6 +258,8 @@ static int make_terms(sph_sim *sim)
   if (terms->alpha == 0 && terms->beta == 0) bits &= ~(unsigned)SPH_ARTIFICIAL;
   if (terms->signal_alpha == 0) bits &= ~(unsigned)SPH_SIGNAL;
   if (terms->epsilon == 0) bits &= ~(unsigned)SPH_XSPH;
+  if (terms->stress_alpha == 0 && terms->stress_beta == 0) bits &= ~(unsigned)SPH_STRESS;
+  if (terms->shift.strength == 0) bits &= ~(unsigned)SPH_SHIFTING;
   if (terms->delta == 0) bits &= ~(unsigned)SPH_DIFFUSION;
   if (terms->drag_K == 0 && terms->drag_rate == 0) bits &= ~(unsigned)SPH_DRAG;
   sim->loop_terms = bits;
@@ -276,6 +313,10 @@ static int sums_of(const sph_sim *sim, const sph_group *group)
   if (group->model == SPH_MODEL_DBC) sums = SPH_FLUID_SUMS_ALL;
   if (!group->wall && (sim->loop_terms & SPH_ANTUONO))
     sums = sums > gradient_sums(sim->dim) ? sums : gradient_sums(sim->dim);
+  if (!group->wall && (sim->loop_terms & SPH_SHIFTS)) {
+    const int own = shift_concentration_sums(sim->dim);
+    sums = sums > own ? sums : own;
+  }
   return sums;
 }
 
@@ -312,6 +353,9 @@ static int make_sorted(sph_sim *sim, int g)
     sorted->sum[s] = SPH_NEW(double, sorted->room, "pair sums", &sim->error);
   for (int d = 0; d < sim->dim; d++)
     sorted->built[d] = SPH_NEW(double, sorted->room, "positions of the lists", &sim->error);
+  if (sim->loop_terms & SPH_SHIFTS)
+    sorted->shifted = SPH_NEW(double, sorted->room *shift_slots(sim->dim) + SPH_PAIR_SLOTS,
+                              "records of what shifts", &sim->error);
   if (terms & SPH_FORM_PHI) sorted->phi = SPH_NEW(double, sorted->room, "phi", &sim->error);
   return sim->error.status;
 }
@@ -384,7 +428,7 @@ sph_problem sph_sim_prepare_problem(sph_sim *sim)
 {
   return (sph_problem){.ctx = sim,
                        .threads = sim->threads,
-                       .drift = (sim->loop_terms & SPH_XSPH) != 0,
+                       .drift = sim->part[SPH_WHOLE].shift || (sim->loop_terms & SPH_XSPH),
                        .rhs = sph_sim_rhs,
                        .weights = sph_sim_weights,
                        .rhs_piece = sph_sim_rhs_piece,
@@ -443,6 +487,11 @@ int sph_sim_prepare(sph_sim *sim)
         "%ld particles start nearer than 0.1 dx = %g m to another (a wall in the fluid, "
         "or two shapes that overlap?)",
         sim->near, 0.1 * sim->dx);
+  if (!status && (sim->loop_terms & SPH_TRANSPORT) && sim->surface > 0)
+    status = sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "transport-velocity: %ld particles start at a free surface, which would "
+                          "spread; right is shifting with surface = 1",
+                          sim->surface);
   if (!status) status = make_rates_anew(sim);
   if (!status) sph_sim_weights_scales(sim);
   if (!status) status = sph_sim_implicit_make(sim);
@@ -470,6 +519,7 @@ void sph_sim_prepare_undo(sph_sim *sim)
   for (int g = 0; g < sim->groups; g++) {
     sph_memory_free(sim->sorted[g].record);
     sph_memory_free(sim->sorted[g].phi);
+    sph_memory_free(sim->sorted[g].shifted);
     for (int s = 0; s < SPH_PAIR_SUMS; s++) sph_memory_free(sim->sorted[g].sum[s]);
     for (int d = 0; d < 3; d++) sph_memory_free(sim->sorted[g].built[d]);
   }

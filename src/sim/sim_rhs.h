@@ -35,6 +35,7 @@ int sph_sim_walls_move(sph_evaluation *e);             /* walls: prescribed moti
 int sph_sim_walls_fill(sph_evaluation *e);             /* walls: extrapolation */
 int sph_sim_gradients(sph_evaluation *e);              /* prepare */
 void sph_sim_pairs_pack(sph_evaluation *e, int walls); /* sorted copies of fluids, or of walls */
+int sph_sim_shift_add(sph_evaluation *e);              /* shift */
 int sph_sim_drag_add(sph_evaluation *e);               /* drag */
 int sph_sim_pairs_add(sph_evaluation *e);              /* pairs */
 int sph_sim_admit(sph_evaluation *e);                  /* admit */
@@ -46,6 +47,8 @@ void sph_sim_walls_finish(const sph_evaluation *e, int g);
 /* d rho/dt of dynamic boundary particles: all of it. */
 void sph_sim_walls_rates(sph_evaluation *e, int g);
 void sph_sim_walls_force(const sph_evaluation *e, int g, double g_minus_a[3]);
+/* Cholesky of the dim x dim matrix A - shift I; 0 where it is not positive definite. */
+int sph_sim_gradients_cholesky(int dim, double A[3][3], double shift, double L[3][3]);
 /* Cholesky factor of the gradient matrix at sorted place s, of its sums; 0: the gradient is left
  * out there.  x = (L L^T)^-1 x. */
 int sph_sim_gradients_factor(const sph_sim *sim, double *const *matrix, long s, double L[3][3]);
@@ -58,6 +61,15 @@ void sph_sim_pairs_clear(sph_sim *sim, int g, int sums);
 /* Runs one loop over all target blocks of (target <- source). */
 void sph_sim_pairs_loop(sph_sim *sim, sph_pair_function *loop, int target, int source,
                         const void *constants);
+/* The same over other records of both, of that stride; NULL: their own. */
+void sph_sim_pairs_loop_records(sph_sim *sim, sph_pair_function *loop, int target, int source,
+                                const double *record, const double *source_record, long stride,
+                                const void *constants);
+
+/* The modifier that shifts between steps. */
+int sph_sim_shift_step(void *ctx, sph_sim *sim);
+/* What shifts a group: dv = -2 h speed grad C, about [m/s]; 0: nothing. */
+double sph_sim_shift_speed(const sph_sim *sim, const sph_group *group);
 
 /* phi of all fluids, or of all walls, for the row of that name. */
 void sph_sim_material_phi(sph_evaluation *e, int walls);

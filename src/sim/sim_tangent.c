@@ -10,6 +10,7 @@
 #include "memory.h"
 #include "sim_transposed.h"
 #include "tangent_loops.h"
+#include "term_part.h"
 #include "wall_pair.h"
 
 enum { PARALLEL_MIN = 1024, CHUNK = 256 };
@@ -69,6 +70,13 @@ sph_tangent *sph_sim_tangent_get(sph_sim *sim)
 {
   if (sim->error.status) return NULL;
   if (sim->tangent) return sim->tangent;
+  if (sim->part[SPH_WHOLE].shift) {
+    sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                 "no derivatives of a right-hand side with %s: it jumps where particles come to a "
+                 "free surface, and its passes have none; right is a simulation without the term",
+                 sph_term_part_named(sim->loop_terms & SPH_SHIFTS));
+    return NULL;
+  }
   if (sph_sim_tangent_fit(sim)) return NULL;
   sph_tangent *t = SPH_NEW(sph_tangent, 1, "a tangent", &sim->error);
   if (!t) return NULL;

@@ -33,6 +33,10 @@ static void find_in_terms(finder *f, const sph_term_set *terms)
     found(f, "delta fourtakas without gravity is molteni");
   if ((terms->bits & SPH_XSPH) && terms->epsilon == 0)
     found(f, "xsph with epsilon = 0 does nothing");
+  if ((terms->bits & SPH_SHIFTING) && terms->shift.strength == 0)
+    found(f, "shifting with strength = 0 does nothing");
+  if ((terms->bits & SPH_STRESS) && terms->stress_alpha == 0 && terms->stress_beta == 0)
+    found(f, "stress-artificial with alpha = beta = 0 does nothing");
   if ((terms->bits & SPH_DRAG) && terms->drag_K == 0 && terms->drag_rate == 0)
     found(f, "drag with K = 0 does nothing");
 }
@@ -92,6 +96,15 @@ static void find_in_limits(finder *f, const sph_sim *sim)
   }
 }
 
+static void find_in_surface(finder *f, const sph_sim *sim)
+{
+  if (sim->prepared && sim->surface > 0 && !sim->terms.shift.surface)
+    found(f,
+          "%ld particles are at a free surface, which shifting with surface = 0 does not know: "
+          "it would spread",
+          sim->surface);
+}
+
 int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size)
 {
   finder f = {k, 0, text, text ? size : 0};
@@ -105,5 +118,6 @@ int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size)
     else
       find_in_fluid(&f, sim, sim->group[g]);
   find_in_limits(&f, sim);
+  find_in_surface(&f, sim);
   return f.found > k;
 }

@@ -30,10 +30,11 @@ enum {
   SPH_XSPH = 16384,
   SPH_WALL = 32768,    /* the source is a wall, */
   SPH_NO_SLIP = 65536, /* and viscous terms see it */
+  SPH_STRESS = 1 << 25,
   SPH_DIFFUSION = SPH_MOLTENI | SPH_ANTUONO | SPH_FOURTAKAS,
   SPH_VISCOUS = SPH_ARTIFICIAL | SPH_SIGNAL | SPH_MORRIS | SPH_MCG,
-  SPH_RARE =
-      SPH_FORM_PHI | SPH_SIGNAL | SPH_MORRIS | SPH_MCG | SPH_FOURTAKAS | SPH_CONDUCTION | SPH_XSPH
+  SPH_RARE = SPH_FORM_PHI | SPH_SIGNAL | SPH_MORRIS | SPH_MCG | SPH_FOURTAKAS | SPH_CONDUCTION |
+             SPH_XSPH | SPH_STRESS
 };
 
 /* A record, in slots: x[dim] v[dim] rho p c V extra[dim] u T phi scalars.
@@ -89,7 +90,9 @@ typedef struct fluid_constants {
   vec_scalar drag, drag_i, drag_j;     /* drag_pair.h */
   vec_scalar rho0;                     /* Fourtakas: reference density [kg/m^3], */
   vec_scalar column[3];                /* -gamma g/c0^2 [1/m], */
-  vec_scalar series[SPH_FOURTAKAS_TERMS]; /* (1/gamma - k)/(k + 1) */
+  vec_scalar series[SPH_FOURTAKAS_TERMS];     /* (1/gamma - k)/(k + 1) */
+  vec_scalar stress_tension, stress_pressure; /* artificial stress: alpha, beta, */
+  vec_scalar inverse_w_dx;                    /* 1/w(dx/h) */
 } fluid_constants;
 enum { SPH_FLUID_NUMBERS = (sizeof(fluid_constants) - sizeof(double)) / sizeof(vec_scalar) };
 

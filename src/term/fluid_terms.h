@@ -7,6 +7,7 @@
 #include "term_continuity.h"
 #include "term_delta.h"
 #include "term_pressure.h"
+#include "term_stress_artificial.h"
 #include "term_viscosity_artificial.h"
 #include "term_viscosity_laminar.h"
 #include "term_viscosity_signal.h"
@@ -27,6 +28,7 @@ BODY void fluid_terms(int dim, int kernel, unsigned terms, pair *p, const fluid_
   if (terms & SPH_ANTUONO) term_delta_antuono(dim, terms, p, i, j, sum);
   if (terms & SPH_FOURTAKAS) term_delta_fourtakas(dim, p, k, i, j, sum);
   if (terms & SPH_XSPH) term_xsph(dim, kernel, p, k, i, j, sum);
+  if (terms & SPH_STRESS) term_stress_artificial(dim, kernel, terms, p, k, i, j, sum);
 }
 
 /* One pair: the bodies of its terms, closed by fluid_pair_forces. */

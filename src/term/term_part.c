@@ -23,6 +23,9 @@ static const struct {
     {"delta", SPH_DIFFUSION, MAY},
     {"drag", SPH_DRAG, DEFAULT},
     {"gravity", SPH_UNIFORM, NEVER},
+    {"shifting", SPH_SHIFTING, NEVER},
+    {"transport-velocity", SPH_TRANSPORT, NEVER},
+    {"stress-artificial", SPH_STRESS, NEVER},
 };
 enum { BUILT_IN = sizeof built_in / sizeof *built_in };
 

@@ -119,6 +119,56 @@ static int add_xsph(sph_term_set *set, const sph_term *term, sph_error *error)
   return claim(set, SPH_XSPH, term->name, error);
 }
 
+static int add_stress(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  int status = not_below_zero(term->name, "alpha", term->alpha, error);
+  if (!status) status = not_below_zero(term->name, "beta", term->beta, error);
+  if (!status) status = claim(set, SPH_STRESS, term->name, error);
+  set->stress_alpha = term->alpha;
+  set->stress_beta = term->beta;
+  return status;
+}
+
+static int claim_shift(sph_term_set *set, unsigned bit, const sph_term *term, sph_error *error)
+{
+  if (set->bits & SPH_SHIFTS & ~bit)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term %s: particles are moved by %s already; right is one of them",
+                         term->name, set->bits & SPH_SHIFTING ? "shifting" : "transport-velocity");
+  set->shift = *term;
+  set->shift.name = set->shift.form = NULL;
+  return claim(set, bit, term->name, error);
+}
+
+static int add_shifting(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  const char *form = term->form ? term->form : "delta-plus";
+  const int fick = !strcmp(form, "fick");
+  if (!fick && strcmp(form, "delta-plus"))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term shifting: form \"%.60s\"; known: delta-plus, fick", form);
+  if (!(term->speed > 0 && isfinite(term->speed)))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term shifting: speed = %g m/s; right is > 0 and finite", term->speed);
+  int status = not_below_zero(term->name, "strength", term->strength, error);
+  if (!status) status = not_below_zero(term->name, "crowding", term->crowding, error);
+  if (!status && term->steps < 0)
+    status = sph_error_set(error, SPH_ERR_ARGUMENT, "term shifting: steps = %ld; right is >= 0",
+                           term->steps);
+  if (!status) status = claim_shift(set, SPH_SHIFTING, term, error);
+  if (fick) set->shift.crowding = 0;
+  return status;
+}
+
+static int add_transport(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  int status = not_below_zero(term->name, "background", term->background, error);
+  if (!status) status = not_below_zero(term->name, "time", term->time, error);
+  if (!status) status = claim_shift(set, SPH_TRANSPORT, term, error);
+  set->shift.steps = 0;
+  return status;
+}
+
 static int add_pressure(sph_term_set *set, const sph_term *term, sph_error *error)
 {
   return add_form(set, SPH_PRESSURE_FORCE, term, "s", error);
@@ -289,6 +339,9 @@ static int add(sph_term_set *set, const sph_term *term, sph_error *error)
       {"delta", add_delta},
       {"drag", add_drag},
       {"gravity", add_gravity},
+      {"shifting", add_shifting},
+      {"transport-velocity", add_transport},
+      {"stress-artificial", add_stress},
   };
   if (!term->name || !*term->name)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "a term without a name");

@@ -39,7 +39,11 @@ static int run(sph_output output, sph_error *error)
 
 static int snapshots(sph_error *error)
 {
-  return run(sph_output_hdf5_def(&(sph_hdf5_def){directory, 1, "a: 1\n", "sphode run"}), error);
+  return run(sph_output_hdf5_def(&(sph_hdf5_def){.directory = directory,
+                                                 .interval = 1,
+                                                 .case_text = "a: 1\n",
+                                                 .command = "sphode run"}),
+             error);
 }
 
 static int series(sph_error *error)
@@ -94,6 +98,23 @@ static int probe(sph_error *error)
              error);
 }
 
+/* The snapshots that are there by then. */
+static int exported(const char *format, sph_error *error)
+{
+  int count = sph_export(&(sph_export_def){.path = directory,
+                                           .format = format,
+                                           .directory = directory,
+                                           .fields = "velocity density"},
+                         error);
+  return count < 0 ? count : SPH_OK;
+}
+
+static int csv(sph_error *error) { return exported("csv", error); }
+
+static int vtu(sph_error *error) { return exported("vtu", error); }
+
+static int gadget(sph_error *error) { return exported("gadget", error); }
+
 static int summary(sph_error *error)
 {
   static const sph_comparison comparison = {.name = "x", .value = 1, .bar = 2, .pass = 1};
@@ -138,6 +159,9 @@ static void all(void **state)
 {
   (void)state;
   each_allocation_fails(snapshots, SPH_OK);
+  each_allocation_fails(csv, SPH_OK);
+  each_allocation_fails(vtu, SPH_OK);
+  each_allocation_fails(gadget, SPH_OK);
   each_allocation_fails(series, SPH_OK);
   each_allocation_fails(forces, SPH_OK);
   each_allocation_fails(probe, SPH_OK);
@@ -171,6 +195,19 @@ static int tear_down(void **state)
                                      "series.csv",
                                      "events.csv",
                                      "probe_p.csv",
+                                     "snapshot_0000.csv",
+                                     "snapshot_0001.csv",
+                                     "walls_0000.csv",
+                                     "walls_0001.csv",
+                                     "times.csv",
+                                     "snapshot_0000.vtu",
+                                     "snapshot_0001.vtu",
+                                     "walls_0000.vtu",
+                                     "walls_0001.vtu",
+                                     "snapshot.pvd",
+                                     "walls.pvd",
+                                     "snapshot_0000.hdf5",
+                                     "snapshot_0001.hdf5",
                                      "summary.json",
                                      "summary.txt",
                                      "a.gp",
