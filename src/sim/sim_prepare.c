@@ -333,6 +333,10 @@ int sph_sim_prepare_room(sph_sim *sim, int g)
                              "positions of the lists", &sim->error);
   if (!status && sorted->phi)
     status = sph_memory_grow((void **)&sorted->phi, 0, room, sizeof(double), "phi", &sim->error);
+  if (!status && sorted->shifted)
+    status = sph_memory_grow((void **)&sorted->shifted, 0,
+                             room * (size_t)shift_slots(sim->dim) + SPH_PAIR_SLOTS, sizeof(double),
+                             "records of what shifts", &sim->error);
   if (!status) sorted->room = (long)room;
   return status;
 }

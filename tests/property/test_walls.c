@@ -279,6 +279,7 @@ static sph_sim *pool(const char *model, int threads)
   sph_sim_add_term(sim, sph_term_viscosity_artificial(0.05, 0));
   sph_sim_add_term(sim, sph_term_delta("antuono", 0.1));
   sph_sim_add_term(sim, sph_term_gravity((double[3]){0, -9.81}));
+  if (strstr(model, "shifting")) sph_sim_add_term(sim, sph_term_shifting("delta-plus", 5));
   return sim;
 }
 
@@ -388,6 +389,7 @@ static void same_bits_always(void **state)
   (void)state;
   bits("dbc");
   bits("mirror");
+  bits("mirror, shifting");
 }
 
 /* The water hits the far wall at 3 times the usual speed: mirrors let nothing through. */
