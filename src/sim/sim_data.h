@@ -111,7 +111,9 @@ struct sph_sim {
   /* Fixed when created. */
   int dim, threads, isa, kernel_number, periodic[3];
   const sph_kernel *kernel;
-  char neighbors_method[SPH_METHOD_MAX];
+  int uses_own_search;
+  char search[SPH_METHOD_MAX];                        /* or the name of the user's own */
+  sph_search own_search;                              /* the user's */
   double dx, h, H, skin, speed, origin[3], length[3]; /* H: support radius; skin [m] */
   double h_sound;             /* of the acoustic step limit, at most h [m] */
   double volume, wall_volume; /* of a particle: dx^dim, unless calibrated [m^dim] */

@@ -366,12 +366,15 @@ static int make_sorted(sph_sim *sim, int g)
 
 static int make_search(sph_sim *sim)
 {
+  sph_search own = sim->own_search;
+  own.free = NULL; /* it is the simulation's */
   sph_neighbors_def def = {.dim = sim->dim,
                            .reach = sim->H + sim->skin,
                            .dx = sim->dx,
                            .lanes = sph_cpu_lanes(sim->isa),
                            .threads = sim->threads,
-                           .method = sim->neighbors_method};
+                           .search = sim->uses_own_search ? NULL : sim->search,
+                           .own = sim->uses_own_search ? &own : NULL};
   for (int d = 0; d < sim->dim; d++) {
     def.periodic[d] = sim->periodic[d];
     def.origin[d] = sim->origin[d];

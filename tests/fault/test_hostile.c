@@ -85,7 +85,7 @@ static void create(void **state)
   def = good, def.kernel = "gauss", refused_def(def, "gauss", "kernel");
   def = good, def.kernel = "gauss", refused_def(def, "wendland-c2", "kernel: the known ones");
   def = good, def.kernel = "", refused_def(def, "wendland-c2", "no kernel");
-  def = good, def.neighbors = "tree", refused_def(def, "tree", "neighbors");
+  def = good, def.search = "oak", refused_def(def, "oak", "search");
   def = good, def.isa = "sse9", refused_def(def, "sse9", "isa");
   def = good, def.threads = -1, refused_def(def, "-1", "threads");
   sph_sim *sim = sph_sim_create(NULL);

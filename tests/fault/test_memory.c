@@ -235,7 +235,7 @@ static int simulate(const variant *v, char *text, size_t size)
   sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2,
                                                .dx = 0.1,
                                                .threads = 2,
-                                               .neighbors = v->neighbors,
+                                               .search = v->neighbors,
                                                .periodic = {v->periodic},
                                                .length = {v->periodic}});
   int status = attach_and_run(sim, v);
@@ -268,8 +268,8 @@ static void each_allocation_fails(const variant *v)
 static const variant variants[] = {
     {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, C2, NULL, 0, 0, NULL},
     {"leapfrog", "brute-force", 1, 0, C2, NULL, 0, 1, NULL},
-    {"verlet", NULL, 1, 1, C2, NULL, 0, 0, NULL},
-    {"leapfrog", NULL, 0, 0, SUMMED, "temperature", 1, 1, NULL},
+    {"verlet", "hash", 1, 1, C2, NULL, 0, 0, NULL},
+    {"leapfrog", "tree", 0, 0, SUMMED, "temperature", 1, 1, NULL},
     {"erk:bogacki-shampine-4-2-3", NULL, 1, 1, SUMMED, "entropy", 0, 0, NULL},
     {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, PHI, "u", 1, 0, NULL},
     {"leapfrog", NULL, 0, 1, PHI, "total", 1, 1, NULL},
@@ -298,7 +298,7 @@ static void none_in_the_right_hand_side(void **state)
     sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2,
                                                  .dx = 0.1,
                                                  .threads = 2,
-                                                 .neighbors = v->neighbors,
+                                                 .search = v->neighbors,
                                                  .periodic = {v->periodic},
                                                  .length = {v->periodic}});
     if (attach_and_run(sim, v) != SPH_OK) fail_msg("%s", sph_sim_error(sim));

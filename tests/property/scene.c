@@ -299,7 +299,7 @@ sph_sim *scene_sim(scene *s, scene_options options)
                      .h_over_dx = s->h_over_dx,
                      .threads = options.threads,
                      .skin = options.skin,
-                     .neighbors = options.neighbors,
+                     .search = options.neighbors,
                      .isa = options.isa};
   for (int k = 0; k < o->dim; k++) {
     def.periodic[k] = o->periodic[k];
