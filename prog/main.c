@@ -46,15 +46,17 @@ static const command commands[] = {
      "validate a case and estimate its cost; nothing is written",
      "  -s, --set KEY=VALUE    as with run\n"
      "  -t, --threads N        as with run\n"},
-    {"info", "LIST", "jcQ", sph_prog_info,
-     "what there is: kernels, eos, materials, terms, integrators, boundaries, case",
-     "  LIST is kernels, eos, materials, terms, integrators, boundaries, or case (the manual of "
-     "case files, "
-     "Markdown)\n"
+    {"info", "LIST", "jcQPD", sph_prog_info,
+     "what there is: kernels, eos, materials, terms, integrators, boundaries, searches, case",
+     "  LIST is kernels, eos, materials, terms, integrators, boundaries, searches, or case (the\n"
+     "  manual of case files, Markdown)\n"
      "      --json             for programs\n"
      "      --csv --q LIST     kernels only: kernel,dim,q,W,dWdr,laplacian at h = 1 for each q of "
      "the list,\n"
-     "                         as 0,0.25,1.3\n"},
+     "                         as 0,0.25,1.3\n"
+     "      --spacing DX       kernels only: h, support, neighbors, error of each at that spacing "
+     "[m]\n"
+     "      --dim N            in 1, 2 or 3 dimensions (default: 2 and 3)\n"},
     {"plot", "DIR", "Fn", sph_prog_plot, "draw a run again",
      "      --field NAME       colour: velocity, pressure, density, energy, velocity_x, ...\n"
      "      --frames N         snapshots on the sheet\n"},
@@ -129,6 +131,8 @@ static const struct option options[] = {
     {"gadget", no_argument, NULL, 'G'},
     {"fields", required_argument, NULL, 'L'},
     {"float32", no_argument, NULL, 'S'},
+    {"spacing", required_argument, NULL, 'P'},
+    {"dim", required_argument, NULL, 'D'},
     {"field", required_argument, NULL, 'F'},
     {"frames", required_argument, NULL, 'n'},
     {"integrators", required_argument, NULL, 'I'},
@@ -220,6 +224,8 @@ static int take(prog_options *o, int letter, const char *value)
   case 'L': o->fields = value; break;
   case 'S': o->single = 1; break;
   case 'Q': o->q = value; break;
+  case 'P': o->spacing = value; break;
+  case 'D': return number("dim", value, 3, &o->dim);
   case 'F': o->field = value; break;
   case 's':
     if (o->sets == PROG_SETS)

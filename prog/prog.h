@@ -19,9 +19,11 @@ typedef struct prog_options {
   int sets;
   int threads; /* 0: what the case says */
   int quiet, force, strict, json, csv;
-  const char *q;     /* "0,0.25,1.3" */
-  const char *field; /* NULL: that of the case */
-  int frames;        /* 0: that of the case */
+  const char *q;       /* "0,0.25,1.3" */
+  const char *spacing; /* info kernels: in metres; NULL: not asked for */
+  int dim;             /* 0: 2 and 3 */
+  const char *field;   /* NULL: that of the case */
+  int frames;          /* 0: that of the case */
   /* export */
   int vtu, gadget, single;
   const char *fields; /* NULL: all */
@@ -48,6 +50,8 @@ int sph_prog_spectrum(const prog_options *o);
 /* sphode info kernels: for people; --csv --q, which returns the exit status. */
 void sph_prog_kernels_table(void);
 int sph_prog_kernels_values(const prog_options *o);
+/* --spacing, --dim: likewise. */
+int sph_prog_advice(const prog_options *o);
 
 /* "sphode: ..." on stderr; returns status. */
 int sph_prog_error(int status, const char *format, ...) SPH_PRINTF(2, 3);
