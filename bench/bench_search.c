@@ -70,21 +70,21 @@ static void developed(places *p)
   shuffle(p);
 }
 
-/* Half of the points in a body; around it spray that thins out, some of it very far away. */
+/* Half of the points in a body; around it spray that thins out, some of it very far away.  Golden
+ * angles: none of it is as near to another as to be refused. */
 static void spray(places *p)
 {
   const double at[3] = {0.1, 0.2, 0.3};
   const long n = across(p, 0.5);
   add_cube(p, at, n, 1, 0.3);
-  for (; p->n < p->room; p->n++) {
-    const double far = (double)n * pow(p->n % 100 ? 30 : 1e6, uniform(p));
-    double direction[3], length = 0;
-    for (int d = 0; d < p->dim; d++) {
-      direction[d] = uniform(p) - 0.5;
-      length += direction[d] * direction[d];
-    }
-    for (int d = 0; d < p->dim; d++)
-      p->x[d][p->n] = at[d] + far * direction[d] / (sqrt(length) + 1e-3);
+  for (long first = p->n; p->n < p->room; p->n++) {
+    const long k = p->n - first;
+    const double share = (double)k / (double)(p->room - first),
+                 angle = 2.399963229728653 * (double)k;
+    const double far = (double)n * pow(k % 100 ? 30 : 1e6, share);
+    const double z = p->dim == 3 ? 2 * fmod(0.618033988749895 * (double)k, 1) - 1 : 0;
+    const double direction[3] = {sqrt(1 - z * z) * cos(angle), sqrt(1 - z * z) * sin(angle), z};
+    for (int d = 0; d < p->dim; d++) p->x[d][p->n] = at[d] + far * direction[d];
   }
   shuffle(p);
 }

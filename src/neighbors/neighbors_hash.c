@@ -206,8 +206,9 @@ static void near_column(const hashes *all, const hashed *h, const column *c, con
   const int z = all->def.dim - 1, end = c->begin + c->n;
   double rest = reach * reach * (1 + 1e-12);
   for (int d = 0; d < z; d++) {
-    const double gap = fmax(fmax(c->lo[d] - hi[d], lo[d] - c->hi[d]), 0);
-    rest -= gap * gap;
+    const double below = c->lo[d] - hi[d], above = lo[d] - c->hi[d];
+    const double gap = below > above ? below : above;
+    rest -= gap > 0 ? gap * gap : 0;
   }
   if (rest <= 0) return;
   rest = sqrt(rest) * (1 + 1e-12);

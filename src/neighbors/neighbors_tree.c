@@ -106,28 +106,55 @@ static int sort(void *ctx, int set, const sph_points *points, int *order, sph_er
 
 /* ---- near */
 
+/* Squared distance of the boxes. */
+static inline double apart2(int dim, const node *n, const double *lo, const double *hi)
+{
+  double sum = 0;
+  for (int d = 0; d < dim; d++) {
+    const double below = n->lo[d] - hi[d], above = lo[d] - n->hi[d];
+    const double gap = below > above ? below : above;
+    sum += gap > 0 ? gap * gap : 0;
+  }
+  return sum;
+}
+
+/* Is all of the node within reach of all of the box? */
+static inline int whole(int dim, const node *n, const double *lo, const double *hi, double reach2)
+{
+  double sum = 0;
+  for (int d = 0; d < dim; d++) {
+    const double up = n->hi[d] - lo[d], down = hi[d] - n->lo[d], span = up > down ? up : down;
+    sum += span * span;
+  }
+  return sum <= reach2;
+}
+
+static inline int walk(int dim, const grown *g, const double *lo, const double *hi, double reach2,
+                       int max, sph_stretch *stretch)
+{
+  int n = 0;
+  for (int k = 0; k < g->nodes;) {
+    const node *here = &g->node[k];
+    if (apart2(dim, here, lo, hi) > reach2)
+      k = here->next;
+    else if (here->end - here->begin <= LEAF || whole(dim, here, lo, hi, reach2)) {
+      sph_stretch_add(stretch, &n, max, here->begin, here->end);
+      k = here->next;
+    } else
+      k++;
+  }
+  return n;
+}
+
 static int near(const void *ctx, int set, const double *lo, const double *hi, double reach, int max,
                 sph_stretch *stretch)
 {
   const trees *all = ctx;
   const grown *g = &all->set[set];
   const double reach2 = reach * reach * (1 + 1e-12);
-  int n = 0;
-  for (int k = 0; k < g->nodes;) {
-    const node *here = &g->node[k];
-    double nearest = 0, farthest = 0; /* squared distances of the boxes */
-    for (int d = 0; d < all->def.dim; d++) {
-      const double below = here->lo[d] - hi[d], above = lo[d] - here->hi[d];
-      const double gap = fmax(fmax(below, above), 0);
-      const double span = fmax(here->hi[d] - lo[d], hi[d] - here->lo[d]);
-      nearest += gap * gap;
-      farthest += span * span;
-    }
-    const int far = nearest > reach2, whole = farthest <= reach2 || here->end - here->begin <= LEAF;
-    if (!far && whole) sph_stretch_add(stretch, &n, max, here->begin, here->end);
-    k = far || whole ? here->next : k + 1;
-  }
-  return n;
+  return all->def.dim == 1   ? walk(1, g, lo, hi, reach2, max, stretch)
+         : all->def.dim == 2 ? walk(2, g, lo, hi, reach2, max, stretch)
+                             : walk(3, g, lo, hi, reach2, max, stretch);
 }
 
 /* ---- the search */
