@@ -15,11 +15,11 @@ static const struct {
      sph_neighbors_grid},
     {"hash",
      "the same columns, but only those that hold points, found by a hash of their numbers; sorted "
-     "along each: for points thinly spread over a large space",
+     "along each: for spray, clusters and near-empty spaces",
      sph_neighbors_hash},
     {"tree",
-     "boxes around halves of halves of the points (a bounding volume hierarchy): for spacings that "
-     "differ by large factors",
+     "boxes around halves of halves of the points (a bounding volume hierarchy), whatever their "
+     "spacing",
      sph_neighbors_tree},
     {"brute-force", "all sources for all targets, in the order of grid: the reference",
      sph_neighbors_grid},

@@ -79,6 +79,12 @@ typedef struct places {
   nearest *found;     /* [n[FLUIDS]] */
 } places;
 
+/* Dust passes walls; mirrors have no thickness. */
+static int has_place(const sph_group *group)
+{
+  return !group->eos.dust && !(group->wall && group->model == SPH_MODEL_MIRROR);
+}
+
 static int make_places(places *p)
 {
   const sph_sim *sim = p->sim;
@@ -92,7 +98,7 @@ static int make_places(places *p)
     def.length[d] = sim->length[d];
   }
   for (int g = 0; g < sim->groups; g++)
-    if (!sim->group[g]->eos.dust) p->n[sim->group[g]->wall ? WALLS : FLUIDS] += sim->group[g]->n;
+    if (has_place(sim->group[g])) p->n[sim->group[g]->wall ? WALLS : FLUIDS] += sim->group[g]->n;
   p->n[PROBES] = p->n[FLUIDS];
   int good = p->n[WALLS] > 0 && p->n[FLUIDS] > 0;
   if (good) good = (p->nb = sph_neighbors_create(&def, NULL)) != NULL;
@@ -118,7 +124,7 @@ static void fill_places(places *p)
   for (int g = 0; g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
     const int set = group->wall ? WALLS : FLUIDS;
-    if (group->eos.dust) continue;
+    if (!has_place(group)) continue;
     for (int d = 0; d < sim->dim; d++)
       memcpy(p->x[set][d] + at[set], sph_group_read(group, "position", d),
              (size_t)group->n * sizeof(double));
