@@ -103,6 +103,10 @@ static void add_heat(sph_sim *sim, sph_group *water, const variant *v)
   sph_sim_add_term(sim, sph_term_conduction());
   sph_sim_add_term(sim, sph_term_heat_source(power, NULL));
   sph_sim_add_term(sim, sph_term_xsph(0.2));
+  sph_sim_add_term(sim, sph_term_stress_artificial(0.2, 0.01));
+  sph_term shifting = sph_term_shifting(NULL, 1);
+  shifting.advection = 0, shifting.steps = v->periodic; /* a rate; where periodic between steps */
+  sph_sim_add_term(sim, shifting);
 }
 
 static void add_scalar(sph_sim *sim)
