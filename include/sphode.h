@@ -14,6 +14,7 @@
 #include "sphode/export.h"
 #include "sphode/field.h"
 #include "sphode/group.h"
+#include "sphode/import.h"
 #include "sphode/integrator.h"
 #include "sphode/jacobian.h"
 #include "sphode/kernel.h"

@@ -11,6 +11,7 @@
 #include "memory.h"
 #include "sphode/case.h"
 #include "sphode/checkpoint.h"
+#include "sphode/import.h"
 #include "sphode/kernel.h"
 
 typedef struct builder {
@@ -101,6 +102,22 @@ static int set_boundary(builder *b, sph_group *group, const sph_case_node *of)
   return told(b, map ? map : of);
 }
 
+/* Its path is beside the case file. */
+static int add_file(const builder *b, sph_group *group, const sph_case_node *file, double density)
+{
+  char path[4096];
+  const int wall = !strcmp(sph_group_kind(group), "wall");
+  const char *name = get_text(file, "path", ""), *slash = strrchr(b->c->path, '/');
+  const int beside = slash && name[0] != '/' ? (int)(slash - b->c->path) + 1 : 0;
+  if (snprintf(path, sizeof path, "%.*s%s", beside, b->c->path, name) >= (int)sizeof path)
+    return fail(b, file, "path: too long");
+  sph_import(b->sim, group,
+             &(sph_import_def){.path = path,
+                               .part = (int)get_number(file, "part", wall),
+                               .rho0 = get_number(file, "density", density)});
+  return told(b, file);
+}
+
 static int add_shape(const builder *b, sph_group *group, const sph_case_node *shape, double density)
 {
   double lower[3], upper[3], centre[3];
@@ -110,6 +127,7 @@ static int add_shape(const builder *b, sph_group *group, const sph_case_node *sh
   density = get_number(shape, "density", density);
   get_vector(shape, "lower", lower);
   get_vector(shape, "upper", upper);
+  if (!strcmp(shape->key, "file")) return add_file(b, group, shape, density);
   for (int d = 0; d < b->c->dim && strcmp(shape->key, "ball"); d++)
     if (!(upper[d] > lower[d]))
       return fail(b, shape, "upper must be above lower in each direction");

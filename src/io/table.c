@@ -13,6 +13,7 @@ typedef struct reader {
   sph_table *table;
   const char *path, *wanted;
   hid_t part; /* the group of one kind of particles */
+  int number; /* its, of PartType0, ... */
   sph_error *error;
 } reader;
 
@@ -128,6 +129,19 @@ static int missing(const reader *r)
   return SPH_OK;
 }
 
+/* MassTable[part] of the header. */
+static void read_mass(reader *r, hid_t header)
+{
+  double mass[6];
+  hid_t attribute = H5Aopen(header, "MassTable", H5P_DEFAULT);
+  hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1;
+  if (space >= 0 && r->number < 6 && H5Sget_simple_extent_npoints(space) == 6 &&
+      H5Aread(attribute, H5T_NATIVE_DOUBLE, mass) >= 0)
+    r->table->mass = mass[r->number];
+  if (space >= 0) H5Sclose(space);
+  if (attribute >= 0) H5Aclose(attribute);
+}
+
 static void read_header(reader *r, hid_t file)
 {
   hid_t header = H5Gopen2(file, "Header", H5P_DEFAULT);
@@ -135,6 +149,7 @@ static void read_header(reader *r, hid_t file)
   if (header >= 0) {
     sph_h5_read_real(header, "Time", &time);
     sph_h5_read_real(header, "Dimension", &dim);
+    read_mass(r, header);
     H5Gclose(header);
   }
   r->table->time = time;
@@ -162,7 +177,7 @@ int sph_table_read(sph_table *table, const char *path, int part, const char *wan
 {
   sph_h5 h5;
   sph_error own = {0};
-  reader r = {.table = table, .path = path, .wanted = wanted, .error = &own};
+  reader r = {.table = table, .path = path, .wanted = wanted, .number = part, .error = &own};
   char name[32];
   *table = (sph_table){0};
   snprintf(name, sizeof name, "PartType%d", part);

@@ -16,6 +16,7 @@ typedef struct sph_table_field {
 typedef struct sph_table {
   int dim; /* 0: the file does not tell */
   double time;
+  double mass; /* of each particle, where the header tells it, not a field; 0 */
   long n;
   int fields;
   sph_table_field field[SPH_TABLE_FIELDS];

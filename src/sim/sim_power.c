@@ -29,6 +29,7 @@ static unsigned find(const sph_sim *sim, int k, const sph_called_term **call)
   const sph_term_set *set = &sim->terms;
   unsigned bits = set->bits | (set->uniform ? SPH_UNIFORM : 0);
   if (set->drag_K > 0 || set->drag_rate > 0) bits |= SPH_DRAG;
+  if (set->shift.steps) bits &= ~(unsigned)SPH_SHIFTING; /* between steps: no part of f */
   *call = NULL;
   for (int b = 0; b < BUILT_IN; b++)
     if ((bits & bits_of[b]) && k-- == 0) return bits_of[b];

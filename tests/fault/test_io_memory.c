@@ -115,6 +115,29 @@ static int vtu(sph_error *error) { return exported("vtu", error); }
 
 static int gadget(sph_error *error) { return exported("gadget", error); }
 
+/* Into a simulation of its own. */
+static int imported(const char *name, sph_error *error)
+{
+  char path[240];
+  const long at = fail_at;
+  fail_at = 0;
+  sph_sim *own = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 0.1});
+  sph_group *group = sph_group_create(own, "water", "fluid");
+  snprintf(path, sizeof path, "%s/%s", directory, name);
+  fail_at = at, calls = 0;
+  sph_import(own, group, &(sph_import_def){.path = path, .rho0 = 1000});
+  fail_at = 0;
+  const int status = sph_sim_status(own);
+  if (status) sph_error_set(error, status, "%s", sph_sim_error(own));
+  sph_sim_free(own);
+  fail_at = at;
+  return status;
+}
+
+static int import_csv(sph_error *error) { return imported("snapshot_0000.csv", error); }
+
+static int import_hdf5(sph_error *error) { return imported("snapshot_0000.hdf", error); }
+
 static int summary(sph_error *error)
 {
   static const sph_comparison comparison = {.name = "x", .value = 1, .bar = 2, .pass = 1};
@@ -161,6 +184,8 @@ static void all(void **state)
   each_allocation_fails(snapshots, SPH_OK);
   each_allocation_fails(csv, SPH_OK);
   each_allocation_fails(vtu, SPH_OK);
+  each_allocation_fails(import_csv, SPH_OK);
+  each_allocation_fails(import_hdf5, SPH_OK);
   each_allocation_fails(gadget, SPH_OK);
   each_allocation_fails(series, SPH_OK);
   each_allocation_fails(forces, SPH_OK);

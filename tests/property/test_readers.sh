@@ -122,6 +122,40 @@ for name in ("run/snapshot_0002.hdf", "run/gadget/snapshot_0002.hdf5"):
 print("right")
 END
 
+# GADGET's initial conditions by other hands: float32, one mass for all in the header, no density.
+cat >case.yml <<'END'
+dimension: 3
+spacing: 0.1 m
+groups:
+  gas: {kind: fluid, density: 2 kg/m^3, shapes: [file: {path: start.hdf5}], eos: {ideal-gas: {gamma: 1.4}}}
+terms: {continuity: {}, pressure: {}}
+run: {end: 1e-6 s}
+END
+read_by "h5py: initial conditions come in" h5py <<END
+import h5py, numpy, subprocess
+rng = numpy.random.default_rng(1)
+x = (numpy.argwhere(numpy.ones((6, 6, 6))) + 0.5) * 0.1
+v = rng.normal(size=x.shape)
+with h5py.File("start.hdf5", "w") as f:
+    head = f.create_group("Header")
+    head.attrs["NumPart_ThisFile"] = numpy.array([len(x), 0, 0, 0, 0, 0], dtype="u4")
+    head.attrs["MassTable"] = numpy.array([0.25, 0, 0, 0, 0, 0])
+    head.attrs["Time"] = 0.0
+    gas = f.create_group("PartType0")
+    gas["Coordinates"] = x.astype("f4")
+    gas["Velocities"] = v.astype("f4")
+    gas["ParticleIDs"] = numpy.arange(len(x), dtype="u4")
+    gas["InternalEnergy"] = numpy.full(len(x), 3, dtype="f4")
+subprocess.run(["$sphode", "run", "case.yml", "-q", "-o", "started"], check=True)
+with h5py.File("started/snapshot_0000.hdf", "r") as f:
+    gas = f["PartType0"]
+    assert (gas["Coordinates"][()] == x.astype("f4")).all()
+    assert (gas["Velocities"][()] == v.astype("f4")).all()
+    assert (gas["Masses"][()] == 0.25).all() and (gas["InternalEnergy"][()] == 3).all()
+    assert (gas["Density"][()] == 2).all()
+print("right")
+END
+
 if command -v gnuplot >/dev/null; then
   found=$(gnuplot -e "set datafile separator ','; set print '-';
     stats 'run/csv/snapshot_0002.csv' using (column('density [kg/m^3]')) name 'd' nooutput;
