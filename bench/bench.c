@@ -116,7 +116,6 @@ int main(int argc, char **argv)
   introduce();
   bench_memory(); /* first: nothing is left of others */
   bench_neighbors();
-  bench_search();
   bench_operators();
   bench_rhs();
   bench_baseline();
