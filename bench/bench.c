@@ -116,6 +116,7 @@ int main(int argc, char **argv)
   introduce();
   bench_memory(); /* first: nothing is left of others */
   bench_neighbors();
+  bench_search();
   bench_operators();
   bench_rhs();
   bench_baseline();

@@ -17,6 +17,7 @@ int bench_quick(void); /* --quick: small sizes */
 
 void bench_memory(void);      /* bytes a particle, by parts */
 void bench_neighbors(void);   /* sort and list build */
+void bench_search(void);      /* grid, hash, tree on uneven points; with --filter only */
 void bench_rhs(void);         /* right-hand sides */
 void bench_baseline(void);    /* the same over a good plain code; growth with size */
 void bench_dam(void);         /* SPHERIC's test 2, a developed flow; with --filter only */

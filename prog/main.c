@@ -46,18 +46,32 @@ static const command commands[] = {
      "validate a case and estimate its cost; nothing is written",
      "  -s, --set KEY=VALUE    as with run\n"
      "  -t, --threads N        as with run\n"},
-    {"info", "LIST", "jcQ", sph_prog_info,
-     "what there is: kernels, eos, materials, terms, integrators, boundaries, case",
-     "  LIST is kernels, eos, materials, terms, integrators, boundaries, or case (the manual of "
-     "case files, "
-     "Markdown)\n"
+    {"info", "LIST", "jcQPD", sph_prog_info,
+     "what there is: kernels, eos, materials, terms, integrators, boundaries, searches, case",
+     "  LIST is kernels, eos, materials, terms, integrators, boundaries, searches, or case (the\n"
+     "  manual of case files, Markdown)\n"
      "      --json             for programs\n"
      "      --csv --q LIST     kernels only: kernel,dim,q,W,dWdr,laplacian at h = 1 for each q of "
      "the list,\n"
-     "                         as 0,0.25,1.3\n"},
+     "                         as 0,0.25,1.3\n"
+     "      --spacing DX       kernels only: h, support, neighbors, error of each at that spacing "
+     "[m]\n"
+     "      --dim N            in 1, 2 or 3 dimensions (default: 2 and 3)\n"},
     {"plot", "DIR", "Fn", sph_prog_plot, "draw a run again",
      "      --field NAME       colour: velocity, pressure, density, energy, velocity_x, ...\n"
      "      --frames N         snapshots on the sheet\n"},
+    {"export", "DIR", "ocvGLSq", sph_prog_export,
+     "snapshots as files that other tools read: CSV, VTU, GADGET's HDF5",
+     "  DIR is the directory of a run, or one of its snapshots.\n"
+     "\n"
+     "      --csv              a table a snapshot and kind, and times.csv: gnuplot, SPLASH, "
+     "pandas\n"
+     "      --vtu              VTK's XML, and series with their times, .pvd: ParaView, VisIt\n"
+     "      --gadget           GADGET's HDF5 layout: yt, pynbody, SPLASH\n"
+     "      --fields LIST      names with commas between, as velocity,density (default: all)\n"
+     "      --float32          numbers of single precision\n"
+     "  -o, --output DIR       where to (default: DIR/csv, DIR/vtu, DIR/gadget)\n"
+     "  -q, --quiet            nothing is told\n"},
     {"work-precision", "CASE.yml", "ostqfFITCRUNXM", sph_prog_work_precision,
      "what each integrator needs for which temporal error",
      "      --integrators LIST   names with commas between, each with keys of its own behind a +:\n"
@@ -113,6 +127,12 @@ static const struct option options[] = {
     {"json", no_argument, NULL, 'j'},
     {"csv", no_argument, NULL, 'c'},
     {"q", required_argument, NULL, 'Q'},
+    {"vtu", no_argument, NULL, 'v'},
+    {"gadget", no_argument, NULL, 'G'},
+    {"fields", required_argument, NULL, 'L'},
+    {"float32", no_argument, NULL, 'S'},
+    {"spacing", required_argument, NULL, 'P'},
+    {"dim", required_argument, NULL, 'D'},
     {"field", required_argument, NULL, 'F'},
     {"frames", required_argument, NULL, 'n'},
     {"integrators", required_argument, NULL, 'I'},
@@ -199,7 +219,13 @@ static int take(prog_options *o, int letter, const char *value)
   case 'b': o->strict = 1; break;
   case 'j': o->json = 1; break;
   case 'c': o->csv = 1; break;
+  case 'v': o->vtu = 1; break;
+  case 'G': o->gadget = 1; break;
+  case 'L': o->fields = value; break;
+  case 'S': o->single = 1; break;
   case 'Q': o->q = value; break;
+  case 'P': o->spacing = value; break;
+  case 'D': return number("dim", value, 3, &o->dim);
   case 'F': o->field = value; break;
   case 's':
     if (o->sets == PROG_SETS)

@@ -19,9 +19,14 @@ typedef struct prog_options {
   int sets;
   int threads; /* 0: what the case says */
   int quiet, force, strict, json, csv;
-  const char *q;     /* "0,0.25,1.3" */
-  const char *field; /* NULL: that of the case */
-  int frames;        /* 0: that of the case */
+  const char *q;       /* "0,0.25,1.3" */
+  const char *spacing; /* info kernels: in metres; NULL: not asked for */
+  int dim;             /* 0: 2 and 3 */
+  const char *field;   /* NULL: that of the case */
+  int frames;          /* 0: that of the case */
+  /* export */
+  int vtu, gadget, single;
+  const char *fields; /* NULL: all */
   /* work-precision: lists with commas between; NULL: the defaults. */
   const char *integrators, *tolerances, *cfl, *reference;
   const char *until; /* NULL: the end of the case */
@@ -38,12 +43,15 @@ int sph_prog_restart(const prog_options *o);
 int sph_prog_check(const prog_options *o);
 int sph_prog_info(const prog_options *o);
 int sph_prog_plot(const prog_options *o);
+int sph_prog_export(const prog_options *o);
 int sph_prog_work_precision(const prog_options *o);
 int sph_prog_spectrum(const prog_options *o);
 
 /* sphode info kernels: for people; --csv --q, which returns the exit status. */
 void sph_prog_kernels_table(void);
 int sph_prog_kernels_values(const prog_options *o);
+/* --spacing, --dim: likewise. */
+int sph_prog_advice(const prog_options *o);
 
 /* "sphode: ..." on stderr; returns status. */
 int sph_prog_error(int status, const char *format, ...) SPH_PRINTF(2, 3);

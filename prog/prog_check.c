@@ -5,20 +5,6 @@
 
 #include "prog.h"
 
-static double largest(const sph_group *group, const char *field, int dim)
-{
-  double most = 0;
-  for (long i = 0; i < sph_group_count(group); i++) {
-    double sum = 0;
-    for (int d = 0; d < dim; d++) {
-      double v = sph_group_read(group, field, d)[i];
-      sum += v * v;
-    }
-    most = fmax(most, sum);
-  }
-  return sqrt(most);
-}
-
 static void print_groups(const sph_sim *sim)
 {
   const sph_group *group;
@@ -30,43 +16,11 @@ static void print_groups(const sph_sim *sim)
          sph_sim_dx(sim), sph_sim_h(sim), sph_sim_h(sim) / sph_sim_dx(sim), sph_sim_kernel(sim));
 }
 
-/* A liquid is weakly compressible only where it is slow and its pressure small. */
-static int warn_liquid(const sph_group *group, int dim)
-{
-  const sph_eos *eos = sph_group_eos(group);
-  const double *rho = sph_group_read(group, "density", 0);
-  double far = 0, speed = largest(group, "velocity", dim);
-  int warnings = 0;
-  if (!eos || eos->thermal || !(eos->rho0 > 0) || !rho) return 0;
-  for (long i = 0; i < sph_group_count(group); i++) far = fmax(far, fabs(rho[i] / eos->rho0 - 1));
-  if (speed > 0.1 * eos->c0 * (1 + 1e-9)) {
-    printf("warning      %s moves at %.3g m/s, more than a tenth of its sound speed %.3g m/s\n",
-           sph_group_name(group), speed, eos->c0);
-    warnings++;
-  }
-  if (far > 0.03) {
-    printf(
-        "warning      %s: density starts %.2g %% off the reference; a larger sound speed helps\n",
-        sph_group_name(group), 100 * far);
-    warnings++;
-  }
-  return warnings;
-}
-
 static int warnings(const sph_sim *sim)
 {
-  const sph_group *group;
+  char text[300];
   int n = 0;
-  for (int k = 0; (group = sph_sim_group_get(sim, k)); k++)
-    if (!strcmp(sph_group_kind(group), "fluid")) n += warn_liquid(group, sph_sim_dim(sim));
-  char text[200];
-  for (int k = 0; sph_sim_warning(sim, k, text, sizeof text); k++, n++)
-    printf("warning      %s\n", text);
-  double ratio = sph_sim_h(sim) / sph_sim_dx(sim);
-  if (ratio < 1 || ratio > 3) {
-    printf("warning      h = %.3g dx; usual is 1.2 to 2\n", ratio);
-    n++;
-  }
+  for (; sph_sim_warning(sim, n, text, sizeof text); n++) printf("warning      %s\n", text);
   return n;
 }
 

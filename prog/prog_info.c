@@ -138,6 +138,13 @@ static int integrator_row(int k, row *r)
   return 1;
 }
 
+static int search_row(int k, row *r)
+{
+  r->name = sph_neighbors_search_name(k);
+  if (r->name) r->formula = sph_neighbors_search_about(r->name);
+  return r->name != NULL;
+}
+
 static const list lists[] = {
     {"kernels",
      {"smoothness", "support/h", "h/dx", "neighbors-2d", "neighbors-3d", "lattice-error-2d",
@@ -159,6 +166,7 @@ static const list lists[] = {
      integrator_row,
      "formula"},
     {"boundaries", {NULL}, "", boundary_row, "formula"},
+    {"searches", {NULL}, "", search_row, "about"},
 };
 
 static void json_string(const char *text)
@@ -277,7 +285,10 @@ int sph_prog_info(const prog_options *o)
   int kernels = !strcmp(o->what, "kernels");
   if ((o->csv || o->q) && !kernels)
     return sph_prog_error(PROG_USAGE, "--csv and --q belong to info kernels");
+  if ((o->spacing || o->dim) && !kernels)
+    return sph_prog_error(PROG_USAGE, "--spacing and --dim belong to info kernels");
   if (o->csv || o->q) return sph_prog_kernels_values(o);
+  if (o->spacing || o->dim) return sph_prog_advice(o);
   if (kernels && !o->json) return sph_prog_kernels_table(), PROG_OK;
   for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) {
     if (strcmp(lists[k].name, o->what)) continue;
@@ -287,6 +298,6 @@ int sph_prog_info(const prog_options *o)
   return sph_prog_error(
       PROG_USAGE,
       "info %s: known are kernels, eos, materials, terms, integrators, boundaries, "
-      "case",
+      "searches, case",
       o->what);
 }

@@ -52,19 +52,19 @@ page taylor-green taylor-green-2d terms
 runs "Jittered start, no shifting" parameters.dx "L/25 L/50 L/100"
 judge L/50
 picture L/50 compare_0 "velocities of all particles over the exact ones at three times"
-picture L/50 frames "speed"
 
 missing "Taylor-Green vortices with shifting" "with the case file that has it"
 missing "lid-driven cavity, Re = 100 and 400" "with the case file lid-driven-cavity-2d.yml"
 
 page hydrostatic hydrostatic-tank-2d walls
-because '^pressure' "the layers at the floor rearrange themselves"
-runs "Diffusion of Antuono, H/dx = 20, until" run.end "10*T 60*T 120*T"
+runs "Diffusion of Antuono, H/dx = 20" run.end "10*T 60*T 120*T"
 judge 120*T '^pressure'
 judge 60*T '^kinetic'
-runs "Diffusion of Fourtakas, walls that may pull, until" run.end "10*T 60*T 120*T" --set terms.delta.model=fourtakas --set groups.tank.boundary.tension=true
+curves kinetic "Kinetic energy, diffusion of Antuono" 'column("time [s]")*sqrt(9.81)' 'column("kinetic [J/m]")/(1000*9.81)' \
+  'set logscale y' 'set format y "10^{%L}"' 'set yrange [1e-9:]' 'set xlabel "t sqrt(g/H)"' 'set ylabel "kinetic energy/(rho g H^3)"'
+runs "Diffusion of Fourtakas, walls that may pull" run.end "10*T 60*T 120*T" --set terms.delta.model=fourtakas --set groups.tank.boundary.tension=true
 judge 120*T '^pressure'
-runs "Diffusion of Molteni: its drift, until" run.end "10*T 60*T" --set terms.delta.model=molteni
+runs "Diffusion of Molteni: its drift" run.end "10*T 60*T" --set terms.delta.model=molteni
 say "Dynamic boundary conditions (DBC) are not here: there is nothing to report of their drift."
 
 page standing-wave standing-wave-2d terms
@@ -74,14 +74,16 @@ curves momentum "Momentum along the tank" 'column("time [s]")' 'column("momentum
   'set xlabel "time [s]"' 'set ylabel "momentum along x [kg/s]"' \
   'set samples 800' 'set dummy x' 'w = sqrt(9.81*pi*tanh(pi))' \
   '2000*0.02*w/pi**2*cos(w*(1 - sqrt(2)*0.02**1.5)*x)*exp(-2*0.02*w*(1 - sqrt(0.01))*x) with lines lc "black" dt 2 title "linear theory"'
-runs "Re = 200, eight periods: more of the damping is numerical" parameters.dx "H/20 H/40" --set parameters.q=0.005 --set "run.end=8*T"
+runs "Re = 200, eight periods: more of the damping is numerical" parameters.dx "H/20" --set parameters.q=0.005 --set "run.end=8*T"
 
 page oscillating-drop oscillating-drop-2d exact-solutions
-because 'semi-axis' "a drop with this viscosity is damped as it must be, the exact one is not"
-runs "Artificial viscosity, alpha = 0.02" parameters.dx "R/20 R/40"
+because 'semi-axis along y' "this axis alone; both together, with sound 1.4 times as fast, meet it: the test below"
+runs "Artificial viscosity, alpha = 0.02" parameters.dx "R/20"
 judge R/20
 runs "No viscosity" parameters.dx "R/20 R/40" --set terms.viscosity-artificial.alpha=0 --set compare.0.bar=2e-3 --set compare.1.bar=2e-3
 judge R/20
+tests accuracy/test_drop "both semi-axes, no viscosity" "exact solution" "≤ 2e-3" \
+  'alpha = 0: error of the semi-axes \([0-9.]*\)' "R/dx = 20"
 curves axes "Semi-axis along x, no viscosity" 'column("time [s]")' 'column("a [m]")' 'set xlabel "time [s]"' 'set ylabel "a [m]"'
 picture R/20 frames "pressure"
 
@@ -103,7 +105,7 @@ judge 50 angular
 say "In the last set only the angular momentum is of use: the square is none any more."
 
 page dam-break-front dam-break-2d walls
-runs "Whole runs" parameters.dx "H/40 H/80"
+runs "To T = 9.4" parameters.dx "H/40 H/80"
 judge H/80 '^front, '
 picture H/80 compare_1 "front against Martin & Moyce, 2.25 in, with the offset fitted"
 picture H/80 frames "speed"
@@ -113,21 +115,31 @@ judge H/160 'T = 2'
 settles "front at T = 2"
 
 page dam-break-pressure dam-break-2d-impact walls
-because '^pressure' "the pressure rises 0.05 sqrt(H/g) later than in the experiment"
-runs "Resolutions" parameters.dx "H/40 H/80"
+because '^pressure' "most of the distance lies between 2.4 and 3, where the pressure rises later than measured"
+runs "h/dx = 1.5" parameters.dx "H/40 H/80"
 judge H/80
 curves pressure "Pressure on the far wall, y = 0.2 H, unfiltered" 'column("time [s]")/sqrt(0.6/9.81)' 'column("p1 [Pa]")/(1000*9.81*0.6)' \
-  'set xlabel "t sqrt(g/H)"' 'set ylabel "p/(rho g H)"' 'set yrange [-0.2:2.5]' \
+  'set xlabel "t sqrt(g/H)"' 'set ylabel "p/(rho g H)"' 'set yrange [-0.2:1.2]' \
   '"data/buchner_2002_p1.csv" using 1:2 with points pt 7 ps 0.7 lc "black" title "Buchner (2002)"'
+say "The ringing is sound between the wall and the surface; the rows above take the mean over 0.1, which is what such a ring lasts."
 picture H/80 frames "pressure"
+runs "Only from 3 on, when the pressure has risen" parameters.dx "H/40" --set "compare.0.window=[3, 5.4]"
 
 page dam-break-3d dam-break-3d-lobovsky walls
-runs "Resolutions, H/dx" parameters.n "10 20 30"
-judge 30
+because impulse "after the impact the pressure is higher than measured"
+runs "h/dx = 1.5, n = H/dx" parameters.n "10 20"
+judge 20
 curves pressure "Pressure on the far wall at P1, unfiltered" 'column("time [s]")/sqrt(0.3/9.81)' 'column("p1 [Pa]")/(1000*9.81*0.3)' \
   'set xlabel "t sqrt(g/H)"' 'set ylabel "p/(rho g H)"' \
   '"data/lobovsky_2014_p1.csv" using 1:2 with points pt 7 ps 0.7 lc "black" title "Lobovsky et al. (2014)"'
-picture 30 frames "pressure"
+picture 20 frames "pressure"
+case=dam-break-2d-impact
+runs "The tank of Buchner (2002) in 2D, of the same proportions: its probe near the floor" parameters.dx "H/20" \
+  --set "output.monitors.p1.at=[L, dx/2]" --set "output.monitors.p1.extent=[0, dx/2]"
+say "After the impact, over 4.2 to 5.4, Lobovsky et al. measured 0.56 rho g H at the floor, Buchner 0.54 at 0.2 H, in tanks of the same" \
+  "proportions. What lies between is 0.2 H of water. The run in 2D, which meets Buchner's plateau, has 0.85 at the floor: it cannot meet both." \
+  "In the last frame some particles have gone through the floor, under the water that falls back." \
+  "Finer runs in 3D take hours of a core: H/dx = 20 is what was affordable here."
 
 group "Compressible flow"
 
@@ -145,12 +157,12 @@ picture 400 compare_1 "velocity"
 tests accuracy/test_sod "plateaus of velocity, density and pressure, 400 particles" "exact solution" "2 %"
 
 page heat-slab heat-slab-1d terms
-runs "Resolutions" parameters.dx "L/50 L/100 L/200"
+runs "Implicit conduction" parameters.dx "L/50 L/100 L/200"
 judge L/100
 picture L/100 compare_0 "temperatures of all particles at four times"
 
 page heat-two-media heat-two-media-1d terms
-runs "Resolutions" parameters.dx "L/50 L/100 L/200"
+runs "Implicit conduction" parameters.dx "L/50 L/100 L/200"
 judge L/100
 picture L/100 compare_0 "temperatures of all particles at three times"
 

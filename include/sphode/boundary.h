@@ -12,12 +12,23 @@ extern "C" {
 typedef void sph_motion(void *ctx, double t, double displacement[3], double velocity[3],
                         double acceleration[3]);
 
+/* A plane of a mirror, infinite: a point of it [m] and its normal into the fluid, of any length. */
+typedef struct sph_plane {
+  double point[3], normal[3];
+} sph_plane;
+
+enum { SPH_PLANES_MAX = 6 };
+
 typedef struct sph_boundary {
-  const char *name; /* "adami" */
-  int no_slip; /* 1: viscous terms see v_w = 2 v_prescribed - <v_fluid>; 0: walls take no part in
-                  them */
-  int tension; /* 1: wall pressure may be negative; 0: p_w >= 0 (thin films go wrong otherwise) */
-  double temperature;   /* [K] of the wall's surface, for conduction; 0: adiabatic */
+  const char *name; /* "adami", "dbc", "mirror" */
+  int no_slip; /* 1: viscous terms see 2 v_prescribed - <v_fluid> (adami), v_prescribed (dbc), 2
+                  v_prescribed - v (mirror); 0: none of the wall; of a mirror the reflected v */
+  int tension; /* 1: wall pressure may be negative; 0: p_w >= 0 (thin films go wrong otherwise), of
+                  dbc rho_w >= rho0; a mirror shows the pressure of its fluid */
+  double temperature; /* [K] of the wall's surface, for conduction; 0: adiabatic */
+  double heat_flux;   /* of a mirror: heat that enters the fluid [W/m^2]; 0: adiabatic */
+  int planes;         /* of a mirror, 1 to SPH_PLANES_MAX; pairwise parallel or at right angles */
+  sph_plane plane[SPH_PLANES_MAX];
   sph_motion *motion;   /* NULL: at rest */
   void *ctx;            /* the user's; borrowed unless free is given */
   void (*free)(void *); /* called once with ctx; may be NULL */
@@ -26,6 +37,22 @@ typedef struct sph_boundary {
 /* Adami, Hu & Adams (2012) dummy particles, free slip, p_w >= 0, at rest. */
 SPH_API sph_boundary sph_boundary_adami(void);
 SPH_API sph_boundary sph_boundary_adami_no_slip(void);
+
+/* Dynamic boundary particles (Crespo, Gomez-Gesteira & Dalrymple 2007): density by continuity with
+ * the fluid, integrated in y; pressure by the equation of state; rho_w >= rho0, free slip, at rest.
+ * Needs the term continuity and an equation of state p(rho). */
+SPH_API sph_boundary sph_boundary_dbc(void);
+
+/* Mirror images of the fluid behind planes, at edges and corners by repeated reflection: free slip,
+ * adiabatic, at rest.  Its group has no particles of its own; what sph_group_count tells is the
+ * number of images, which changes at each build of the lists.  Planes are added by the two below:
+ * one, or the sides of a box but for the open ones ("x- y+"; NULL: none).  What is wrong with them
+ * is told where the boundary is set. */
+SPH_API sph_boundary sph_boundary_mirror(void);
+SPH_API void sph_boundary_mirror_plane(sph_boundary *boundary, const double *point,
+                                       const double *normal, int dim);
+SPH_API void sph_boundary_mirror_box(sph_boundary *boundary, const double *lo, const double *hi,
+                                     const char *open, int dim);
 
 SPH_API const char *sph_boundary_name(int k); /* NULL behind the last */
 SPH_API const char *sph_boundary_formula(const char *name);

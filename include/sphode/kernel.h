@@ -24,6 +24,10 @@ SPH_API double sph_kernel_support(const sph_kernel *kernel);        /* kappa = s
 SPH_API double sph_kernel_sigma(const sph_kernel *kernel, int dim); /* sigma_d */
 SPH_API double sph_kernel_h_over_dx(const sph_kernel *kernel);      /* recommended h/dx */
 
+/* The h/dx between which it is good in dim dimensions (docs/theory.md, Kernels); in 1D, where
+ * particles do not pair, 1 to 3 for all.  NULL: not wanted.  SPH_ERR_ARGUMENT: bad kernel, dim. */
+SPH_API int sph_kernel_range(const sph_kernel *kernel, int dim, double *low, double *high);
+
 /* Facts for choosing; docs/theory.md, Kernels.  NaN for a bad kernel, dim (1, 2, 3) or h/dx. */
 
 /* sigma_k = sqrt((1/d) int q^2 W dV) [h]: kernels of equal sigma_k h resolve alike. */

@@ -14,11 +14,13 @@ extern "C" {
 
 /* Of the fluids on a wall: F = - sum over fluid particles i of m_i times the acceleration of i by
  * pairs with the wall, so that d(momentum of the fluids)/dt = m g - sum of F over all walls, to
- * rounding.  Per metre of depth in 2D, per square metre in 1D. */
+ * rounding (what shifting and transport-velocity carry along is no force, and not in it).  Per
+ * metre of depth in 2D, per square metre in 1D. */
 typedef struct sph_force {
   double force[3];    /* by all pair terms [N/m^(3-dim)] */
   double pressure[3]; /* of it: by the pressure term, */
-  double viscous[3];  /* by viscosity, artificial and laminar; the rest is users' own pair terms */
+  double viscous[3];  /* by viscosity, artificial and laminar; the rest is artificial stress
+                         and users' own pair terms */
   double torque[3];   /* of `force` [N m/m^(3-dim)]: sum of (x_i - about) x F_i at the fluid
                          particles, where it balances their angular momentum; 1D: 0 */
 } sph_force;

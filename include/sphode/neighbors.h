@@ -1,9 +1,13 @@
 /* sphode/neighbors.h -- who is near whom.
  *
- * Sets of points are sorted into cells; the neighbours of a target set in a source set are, per
- * block of `lanes` consecutive sorted targets, a list of runs: consecutive places in the sorted
- * order of the source.  A list is a superset: every pair closer than `reach` is in it, and others
- * may be (kernels vanish there, so they add zero). */
+ * Sets of points are sorted so that those near each other stand near each other; the neighbours of
+ * a target set in a source set are, per block of `lanes` consecutive sorted targets, a list of
+ * runs: consecutive places in the sorted order of the source.  A list is a superset: every pair
+ * closer than `reach` is in it, and others may be (kernels vanish there, so they add zero).
+ *
+ * How points are sorted and found again is a struct of two functions (sph_search): a grid, a hash
+ * or a tree (docs/neighbors.md says which pays where), or one of your own.  What they find is
+ * tested point by point, so that all of them list the same pairs, each in its own order. */
 #ifndef SPHODE_NEIGHBORS_H
 #define SPHODE_NEIGHBORS_H
 #include <stdint.h>
@@ -17,16 +21,18 @@ extern "C" {
 typedef struct sph_neighbors sph_neighbors;
 
 typedef struct sph_neighbors_def {
-  int dim;            /* 1, 2, 3 */
-  double reach;       /* every pair with r < reach is found [m], > 0 */
-  double dx;          /* particle spacing, sets the cell sizes [m]; 0: reach / 3 */
-  int lanes;          /* targets in a block: 1, 2, 4 or 8; 0: 1 */
-  int threads;        /* 0: 1; the lists do not depend on it */
-  const char *method; /* "blocks" (NULL: default) or "brute-force", the reference: all sources for
-                         all targets */
-  int periodic[3];    /* direction is periodic */
-  double origin[3];   /* lower corner of the periodic box [m] */
-  double length[3];   /* its lengths [m], at least 2 reach where periodic */
+  int dim;      /* 1, 2, 3 */
+  double reach; /* every pair with r < reach is found [m], > 0 */
+  double dx;    /* particle spacing, sets the cell sizes [m]; 0: reach / 3 */
+  int lanes;    /* targets in a block: 1, 2, 4 or 8; 0: 1 */
+  int threads;  /* 0: 1; the lists do not depend on it */
+  /* "grid" (NULL: own's, or without one this), "hash", "tree", or "brute-force", the reference: in
+   * the order of "grid", all sources for all targets */
+  const char *search;
+  const struct sph_search *own; /* instead: a search of your own, copied; NULL: none */
+  int periodic[3];              /* direction is periodic */
+  double origin[3];             /* lower corner of the periodic box [m] */
+  double length[3];             /* its lengths [m], at least 2 reach where periodic */
 } sph_neighbors_def;
 
 /* Runs of one block: targets first[b] .. first[b + 1] - 1 index runs[]. */
@@ -43,6 +49,54 @@ typedef struct sph_list {
 } sph_list;
 
 enum { SPH_SETS_MAX = 64 };
+
+/* Points to be sorted, valid during the call. */
+typedef struct sph_points {
+  long n;
+  const double *x[3];  /* [n], not sorted, inside the box in periodic directions [m]; d < dim */
+  double lo[3], hi[3]; /* the least box around them [m]; n == 0: zero */
+} sph_points;
+
+/* Places begin .. end - 1 of a sorted order. */
+typedef struct sph_stretch {
+  int begin, end;
+} sph_stretch;
+
+/* A search: the built-in ones and your own use the same struct. */
+typedef struct sph_search {
+  const char *name; /* for messages; copied */
+  /* Finds an order of the points of a set, order[s] = the point in place s, a permutation of
+   * 0 .. n - 1 that follows from the points alone (where they coincide: by their index), and
+   * remembers in ctx what `near` needs.  Returns 0 or a status that it has put into error. */
+  int (*sort)(void *ctx, int set, const sph_points *points, int *order, sph_error *error);
+  /* Where in the sorted order of the set the points within `reach` of the box lo .. hi stand:
+   * stretches rising, not empty, apart, at most max >= 8, with every such point in one of them;
+   * others may be, too, at a price.  Returns how many.  Called by several threads at once. */
+  int (*near)(const void *ctx, int set, const double *lo, const double *hi, double reach, int max,
+              sph_stretch *stretch);
+  double (*bytes)(const void *ctx); /* that ctx holds; NULL: not known */
+  /* Called once with ctx, at the end of what was made with it; where that failed, ctx is still
+   * yours.  NULL: it is yours anyhow. */
+  void (*free)(void *ctx);
+  void *ctx;
+} sph_search;
+
+/* Adds begin .. end - 1, behind all of stretch[*n], for `near`: joined with the last one where it
+ * goes on there, and where there is no room for another. */
+static inline void sph_stretch_add(sph_stretch *stretch, int *n, int max, int begin, int end)
+{
+  if (begin >= end) return;
+  if (*n > 0 && (*n >= max || stretch[*n - 1].end == begin))
+    stretch[*n - 1].end = end;
+  else {
+    stretch[*n].begin = begin;
+    stretch[(*n)++].end = end;
+  }
+}
+
+/* Name of search k = 0, 1, ...; NULL behind the last.  One line about it; NULL: unknown. */
+SPH_API const char *sph_neighbors_search_name(int k);
+SPH_API const char *sph_neighbors_search_about(const char *name);
 
 SPH_API sph_neighbors *sph_neighbors_create(const sph_neighbors_def *def, sph_error *error);
 SPH_API void sph_neighbors_free(sph_neighbors *neighbors);

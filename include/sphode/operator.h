@@ -24,15 +24,15 @@ extern "C" {
 typedef struct sph_operator sph_operator;
 
 typedef struct sph_operator_def {
-  int dim;               /* 1, 2, 3 */
-  double h;              /* smoothing length [m], > 0 */
-  const char *kernel;    /* NULL: "wendland-c2"; sphode info kernels */
-  int threads;           /* 0: 1 */
-  int lower_order;       /* 1: a simpler form where a moment matrix is singular; 0: an error */
-  int periodic[3];       /* direction is periodic */
-  double origin[3];      /* lower corner of the periodic box [m] */
-  double length[3];      /* its lengths [m], at least 2 kappa h where periodic */
-  const char *neighbors; /* as sph_neighbors_def.method */
+  int dim;            /* 1, 2, 3 */
+  double h;           /* smoothing length [m], > 0 */
+  const char *kernel; /* NULL: "wendland-c2"; sphode info kernels */
+  int threads;        /* 0: 1 */
+  int lower_order;    /* 1: a simpler form where a moment matrix is singular; 0: an error */
+  int periodic[3];    /* direction is periodic */
+  double origin[3];   /* lower corner of the periodic box [m] */
+  double length[3];   /* its lengths [m], at least 2 kappa h where periodic */
+  const char *search; /* as sph_neighbors_def.search */
 } sph_operator_def;
 
 /* NULL: error says why. */

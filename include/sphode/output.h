@@ -56,6 +56,8 @@ typedef struct sph_hdf5_def {
   double interval;       /* [s]; see sph_output */
   const char *case_text; /* kept word for word in /Parameters; NULL: none */
   const char *command;   /* the command line, kept in /Code; NULL: none */
+  int single;            /* 1: fields of single precision, about half the size; 0: double */
+  int compression;       /* 1 (quick) to 9 (small); 0: 1; -1: none */
 } sph_hdf5_def;
 
 SPH_API sph_output sph_output_hdf5(const char *directory, double interval);

@@ -30,8 +30,11 @@ typedef struct sph_sim_def {
   /* Least speed V of the error weights [m/s]; V is the largest of it, sqrt(g height), |v| at the
    * start and 0.01 c0 (gas: the mean sound speed). */
   double speed;
-  double skin;           /* of the neighbour lists, in h; < 0: none; 0: 0.2 */
-  const char *neighbors; /* NULL: "blocks"; "brute-force": the reference */
+  double skin;        /* of the neighbour lists, in h; < 0: none; 0: 0.2 */
+  const char *search; /* of neighbours: "grid" (NULL), "hash", "tree", "brute-force" */
+  /* One of your own (sphode/neighbors.h), where search is NULL; copied, and ctx freed with the
+   * simulation. */
+  const struct sph_search *own_search;
   const char *isa; /* NULL: what the CPU has (or SPHODE_ISA); "reference": one lane, plain loops */
 } sph_sim_def;
 

@@ -95,18 +95,23 @@ struct sph_term {
   const char *name; /* "pressure", ... or the user's own; copied when attached */
   /* Parameters of the built-in terms; each constructor says which it reads. */
   /* continuity: "c2" (NULL), "c1", "phi"; pressure: "c2" (NULL), "s", "phi"; delta: "molteni",
-   * "antuono", "fourtakas"; viscosity-laminar: "morris" (NULL), "mcg"; drag: "K" (NULL), "time" */
+   * "antuono", "fourtakas"; viscosity-laminar: "morris" (NULL), "mcg"; drag: "K" (NULL), "time";
+   * shifting: "delta-plus" (NULL), "fick" */
   const char *form;
-  /* continuity: "none" (NULL), "one-sided"; pressure, viscosity-laminar: and "mean" */
-  const char *correction;
-  double alpha, beta; /* artificial viscosities; alpha: artificial conductivity */
-  double delta;       /* density diffusion */
-  double epsilon;     /* xsph */
-  double drag;        /* drag: K [kg/m^3/s], or the stopping time [s] */
-  double exponent;    /* continuity of form phi: phi = rho^exponent */
-  int calibrate;      /* summation */
-  double g[3];        /* uniform body force [m/s^2] */
-  double omega;       /* harmonic body force [1/s] */
+  double alpha,
+      beta;        /* artificial viscosities, artificial stress; alpha: artificial conductivity */
+  double delta;    /* density diffusion */
+  double epsilon;  /* xsph */
+  double drag;     /* drag: K [kg/m^3/s], or the stopping time [s] */
+  double exponent; /* continuity of form phi: phi = rho^exponent */
+  int calibrate;   /* summation */
+  double g[3];     /* uniform body force [m/s^2] */
+  double omega;    /* harmonic body force [1/s] */
+  double speed, strength, crowding; /* shifting: U [m/s], s, R; */
+  int surface, advection;  /* 1: particles at a free surface move along it; rates follow dv, also of
+                             transport-velocity: */
+  double background, time; /* p_b [Pa], tau [s] */
+  long steps;              /* shifting: between steps, every so many; 0: a rate */
   /* continuity of form phi: fills phi[n] > 0 instead of rho^exponent, of fluids and walls (whose
    * rates are NULL). */
   void (*phi)(const sph_term *term, const sph_particles *particles, double *phi);
@@ -156,23 +161,6 @@ SPH_API sph_term sph_term_summation(int calibrate);
  * thermal fluids are heated by the partner of the same row. */
 SPH_API sph_term sph_term_pressure(void);
 SPH_API sph_term sph_term_pressure_form(const char *form);
-/* A continuity, pressure or viscosity-laminar whose kernel gradients are corrected by the inverse B
- * of the gradient matrix M_i = - sum V_j r_ij r_ij F, over neighbours of its species (Randles &
- * Libersky 1996; Bonet & Lok 1999); B = 1 where the least eigenvalue of M is below 0.2, B of i at
- * walls.
- *
- *   "one-sided"  B_i grad W: continuity of form c2 is exact for a linear velocity, also at
- *                surfaces; pressure is -1/rho_i sum V_j (p_j - p_i) B_i grad W, exact for a linear
- *                pressure, whatever its form, and conserves nothing
- *   "mean"       pressure: p_i/rho_i^2 B_i + p_j/rho_j^2 B_j, conserves linear momentum, with
- *                continuity "one-sided" energy, but angular momentum in form c2 only
- *   viscosity-laminar: e.B e F with e = r_ij/r and B of i, or ("mean") of both, which conserves
- *                linear momentum
- *
- * Matched: pressure "mean" with continuity "one-sided", "none" with "none", pressure "one-sided"
- * with any.  Not with an implicit viscosity-laminar, nor where derivatives of f are asked for
- * (sphode/jacobian.h, sensitivity.h, adjoint.h), nor with pair terms that have a scalar. */
-SPH_API sph_term sph_term_corrected(sph_term term, const char *correction);
 /* Monaghan (1992) artificial viscosity with heating; alpha, beta >= 0. */
 SPH_API sph_term sph_term_viscosity_artificial(double alpha, double beta);
 /* Artificial viscosity with a signal velocity (Monaghan 1997) and heating: alpha 0.5 to 1, beta
@@ -191,6 +179,37 @@ SPH_API sph_term sph_term_heat_source(double (*power)(void *ctx, const double x[
 /* XSPH (Monaghan 1989): dx_i/dt = v_i - epsilon sum m_j/rho_ij v_ij W_ij; 0 <= epsilon <= 1,
  * usually up to 0.5. */
 SPH_API sph_term sph_term_xsph(double epsilon);
+/* Particle shifting: dx_i/dt = v_i + dv_i, v itself stays.
+ *
+ *      "fick"        dv_i = -D grad C_i, grad C_i = sum V_j grad W (Lind et al. 2012)
+ *      "delta-plus"  dv_i = -D sum V_j (1 + R (W_ij/W(dx))^4) grad W (Sun et al. 2017)
+ *
+ * D = 2 s h U, |dv_i| at most U/2; U = speed > 0, the largest that is expected [m/s].  The
+ * constructor sets s = strength = 1, the whole coefficient of Sun et al. (in steps of h/U, s = 1/4
+ * is Lind's largest, D dt = h^2/2), R = crowding = 0.2, and
+ *
+ *      surface = 1    particles in reach of a free surface ("cone", sph_operator_surface) move
+ *                     along it only, lone ones not at all; 0: internal flows, two passes less
+ *      advection = 1  density and velocity follow: drho_i/dt and dv_i/dt gain dv_i . grad (Sun et
+ *                     al. 2019); 0: as in 2017, an error of the order of dv
+ *      steps = n > 0  between steps instead, every n accepted ones: x += tau dv, rho and v by tau
+ *                     times their rates, tau the time since the last one, at most h/(8 s U); the
+ *                     integrator then starts anew.  0: a rate of f
+ *
+ * Walls take part as neighbours.  Of one liquid; of energies and scalars, or of several liquids,
+ * with advection = 0. */
+SPH_API sph_term sph_term_shifting(const char *form, double speed);
+/* Transport velocity (Adami, Hu & Adams 2013) with a fixed time, so that it is a rate:
+ *      dx_i/dt = v_i + dv_i, dv_i = -tau p_b/m_i sum (V_i^2 + V_j^2) grad W,
+ *      a_i += 1/m_i sum (V_i^2 + V_j^2)/2 (A_i + A_j) . grad W, A = rho v dv,
+ * and the density follows as in shifting.  p_b = background [Pa], 0: rho0 c0^2; tau = time [s], 0:
+ * 0.1 h/c0.  Of flows without a free surface: a start with one is an error. */
+SPH_API sph_term sph_term_transport_velocity(double background, double time);
+/* Artificial stress (Monaghan 2000) against clumping under tension: a repulsion alpha |p|/rho^2
+ * (W_ij/W(dx))^4 of negative pressures, usually alpha = 0.2, and beta (p_i/rho_i^2 + p_j/rho_j^2)
+ * (...)^4 of positive ones, usually 0.01; both >= 0.  A background pressure of the equation of
+ * state (eos.p_background) is the other remedy. */
+SPH_API sph_term sph_term_stress_artificial(double alpha, double beta);
 /* Price (2008) artificial conductivity of thermal fluids; alpha_u >= 0, usually 1. */
 SPH_API sph_term sph_term_conductivity_artificial(double alpha_u);
 /* Density diffusion of the delta-SPH family: model "molteni", "antuono" or "fourtakas" (which

@@ -11,7 +11,7 @@
 #include "memory.h"
 #include "sphode/case.h"
 #include "sphode/checkpoint.h"
-#include "sphode/correction.h"
+#include "sphode/import.h"
 #include "sphode/kernel.h"
 
 typedef struct builder {
@@ -43,11 +43,46 @@ static int axis_of(const char *word) { return word[0] - 'x'; }
 
 /* ---- groups */
 
-static int set_boundary(builder *b, sph_group *group, const sph_case_node *map)
+/* "x- y+ ", of a list. */
+static const char *open_sides(const sph_case_node *shape, char *text, size_t room)
 {
-  const sph_case_node *motion = child_of(map, "motion");
+  const sph_case_node *list = child_of(shape, "open"), *side = list ? list->first : NULL;
+  for (size_t n = 0; side; side = side->next, n = strlen(text))
+    snprintf(text + n, room - n, "%s ", side->text);
+  return text;
+}
+
+static int is_mirror(const sph_case_node *group)
+{
+  return !strcmp(get_text(child_of(group, "boundary"), "model", "adami"), "mirror");
+}
+
+/* The planes of a mirror: from its shapes. */
+static int add_planes(const builder *b, const sph_case_node *shape, sph_boundary *boundary)
+{
+  double one[3], other[3];
+  char open[32] = "";
+  const int plane = !strcmp(shape->key, "plane");
+  if (!plane && strcmp(shape->key, "layers"))
+    return fail(b, shape, "a mirror has planes: right are layers, the sides of a box, or plane");
+  get_vector(shape, plane ? "point" : "lower", one);
+  get_vector(shape, plane ? "normal" : "upper", other);
+  if (plane)
+    sph_boundary_mirror_plane(boundary, one, other, b->c->dim);
+  else
+    sph_boundary_mirror_box(boundary, one, other, open_sides(shape, open, sizeof open), b->c->dim);
+  return SPH_OK;
+}
+
+static int set_boundary(builder *b, sph_group *group, const sph_case_node *of)
+{
+  const sph_case_node *map = child_of(of, "boundary"), *motion = child_of(map, "motion");
+  const sph_case_node *shape = is_mirror(of) ? child_of(of, "shapes")->first : NULL;
   sph_boundary boundary = sph_boundary_adami();
   boundary.name = get_text(map, "model", "adami");
+  boundary.heat_flux = get_number(map, "heat_flux", 0);
+  for (int status; shape; shape = shape->next)
+    if ((status = add_planes(b, shape->first, &boundary))) return status;
   boundary.no_slip = get_number(map, "no_slip", 0) != 0;
   boundary.tension = get_number(map, "tension", 0) != 0;
   boundary.temperature = get_number(map, "temperature", 0);
@@ -64,16 +99,35 @@ static int set_boundary(builder *b, sph_group *group, const sph_case_node *map)
     b->motions.of[b->motions.n++].motion = s;
   }
   sph_group_set_boundary(group, boundary);
-  return told(b, map);
+  return told(b, map ? map : of);
+}
+
+/* Its path is beside the case file. */
+static int add_file(const builder *b, sph_group *group, const sph_case_node *file, double density)
+{
+  char path[4096];
+  const int wall = !strcmp(sph_group_kind(group), "wall");
+  const char *name = get_text(file, "path", ""), *slash = strrchr(b->c->path, '/');
+  const int beside = slash && name[0] != '/' ? (int)(slash - b->c->path) + 1 : 0;
+  if (snprintf(path, sizeof path, "%.*s%s", beside, b->c->path, name) >= (int)sizeof path)
+    return fail(b, file, "path: too long");
+  sph_import(b->sim, group,
+             &(sph_import_def){.path = path,
+                               .part = (int)get_number(file, "part", wall),
+                               .rho0 = get_number(file, "density", density)});
+  return told(b, file);
 }
 
 static int add_shape(const builder *b, sph_group *group, const sph_case_node *shape, double density)
 {
   double lower[3], upper[3], centre[3];
   char open[32] = "";
+  if (!strcmp(shape->key, "plane"))
+    return fail(b, shape, "a plane is a shape of walls with boundary: {model: mirror} alone");
   density = get_number(shape, "density", density);
   get_vector(shape, "lower", lower);
   get_vector(shape, "upper", upper);
+  if (!strcmp(shape->key, "file")) return add_file(b, group, shape, density);
   for (int d = 0; d < b->c->dim && strcmp(shape->key, "ball"); d++)
     if (!(upper[d] > lower[d]))
       return fail(b, shape, "upper must be above lower in each direction");
@@ -83,10 +137,7 @@ static int add_shape(const builder *b, sph_group *group, const sph_case_node *sh
   } else if (!strcmp(shape->key, "box")) {
     sph_group_add_box(group, lower, upper, density);
   } else {
-    const sph_case_node *list = child_of(shape, "open"), *side = list ? list->first : NULL;
-    for (size_t n = 0; side; side = side->next, n = strlen(open))
-      snprintf(open + n, sizeof open - n, "%s ", side->text);
-    sph_group_add_layers(group, lower, upper, open, density);
+    sph_group_add_layers(group, lower, upper, open_sides(shape, open, sizeof open), density);
   }
   return told(b, shape);
 }
@@ -120,15 +171,17 @@ static int build_group(builder *b, const sph_case_node *map)
     sph_group_set_energy(group, get_text(map, "energy", ""));
     status = told(b, child_of(map, "energy"));
   }
-  for (; shape && !status; shape = shape->next) status = add_shape(b, group, shape->first, density);
+  for (; shape && !status && !(wall && is_mirror(map)); shape = shape->next)
+    status = add_shape(b, group, shape->first, density);
   if (!status && get_number(map, "jitter", 0) > 0) {
     sph_group_jitter(group, get_number(map, "jitter", 0),
                      (unsigned long)get_number(map, "seed", 1));
     status = told(b, map);
   }
-  if (!status && wall) status = set_boundary(b, group, boundary);
+  if (!status && wall) status = set_boundary(b, group, map);
   if (!status) status = set_scales(b, group, map);
-  if (!status && sph_group_count(group) == 0) status = fail(b, map, "the group has no particles");
+  if (!status && sph_group_count(group) == 0 && !(wall && is_mirror(map)))
+    status = fail(b, map, "the group has no particles");
   return status;
 }
 
@@ -242,7 +295,26 @@ static int add_heating(const builder *b, const sph_case_node *map)
   return told(b, map);
 }
 
-static sph_term plain_term(const sph_case_node *map)
+static sph_term shifting(const sph_case_node *map)
+{
+  sph_term term = sph_term_shifting(get_text(map, "form", NULL), get_number(map, "speed", 0));
+  term.strength = get_number(map, "strength", 1);
+  term.crowding = get_number(map, "crowding", 0);
+  term.surface = get_number(map, "surface", 1) != 0;
+  term.advection = get_number(map, "advection", 1) != 0;
+  term.steps = (long)get_number(map, "steps", 0);
+  return term;
+}
+
+static sph_term transport(const sph_case_node *map)
+{
+  sph_term term =
+      sph_term_transport_velocity(get_number(map, "background", 0), get_number(map, "time", 0));
+  term.advection = get_number(map, "advection", 1) != 0;
+  return term;
+}
+
+sph_term sph_case_build_term(const sph_case_node *map)
 {
   const char *name = map->key, *form = get_text(map, "form", NULL);
   double alpha = get_number(map, "alpha", 0), g[3];
@@ -257,6 +329,10 @@ static sph_term plain_term(const sph_case_node *map)
   if (!strcmp(name, "viscosity-laminar")) return sph_term_viscosity_laminar(form);
   if (!strcmp(name, "conduction")) return sph_term_conduction();
   if (!strcmp(name, "xsph")) return sph_term_xsph(get_number(map, "epsilon", 0));
+  if (!strcmp(name, "shifting")) return shifting(map);
+  if (!strcmp(name, "transport-velocity")) return transport(map);
+  if (!strcmp(name, "stress-artificial"))
+    return sph_term_stress_artificial(alpha, get_number(map, "beta", 0));
   if (!strcmp(name, "pressure")) return sph_term_pressure_form(form);
   if (!strcmp(name, "viscosity-artificial"))
     return sph_term_viscosity_artificial(alpha, get_number(map, "beta", 0));
@@ -269,11 +345,6 @@ static sph_term plain_term(const sph_case_node *map)
   if (!strcmp(name, "harmonic")) return sph_term_harmonic(get_number(map, "omega", 0));
   get_vector(map, "acceleration", g);
   return sph_term_gravity(g);
-}
-
-sph_term sph_case_build_term(const sph_case_node *map)
-{
-  return sph_term_corrected(plain_term(map), get_text(map, "correction", NULL));
 }
 
 static int add_term(const builder *b, const sph_case_node *map)
@@ -311,12 +382,6 @@ static int check_scales(const builder *b, const sph_case_node *map)
                                 one->key, map->key, summed ? "a sum" : "integrated", energy);
   }
   return SPH_OK;
-}
-
-static int add_reset(const builder *b, const sph_case_node *map)
-{
-  sph_sim_reset_density(b->sim, get_text(map, "kind", NULL), (long)get_number(map, "every", 0));
-  return told(b, map);
 }
 
 static sph_integrator_def integrator_of(const sph_case_node *map)
@@ -364,6 +429,7 @@ static sph_sim_def sim_def(const sph_case *c, int threads)
       .dx = get_number(c->root, "spacing", 0),
       .kernel = get_text(kernel, "name", NULL),
       .h_over_dx = get_number(kernel, "h_over_dx", 0),
+      .search = get_text(c->root, "search", NULL),
       .threads = threads > 0 ? threads : (int)get_number(child_of(c->root, "run"), "threads", 1),
       .speed = get_number(c->root, "speed", 0),
   };
@@ -387,7 +453,6 @@ static int build_parts(builder *b)
     status = add_term(b, node);
   for (node = child_of(root, "groups")->first; node && !status; node = node->next)
     status = check_scales(b, node);
-  if (!status && (node = child_of(root, "density_reset"))) status = add_reset(b, node);
   if (!status) status = set_integrator(b, child_of(root, "integrator"));
   for (node = child_of(root, "groups")->first; node && !status; node = node->next)
     status = set_initial(b, node);

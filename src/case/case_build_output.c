@@ -153,9 +153,12 @@ void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directo
   }
   const sph_case_node *output = child_of(c->root, "output");
   double end = sph_case_end(c);
+  const int compression = (int)get_number(output, "compression", 1);
   sph_hdf5_def def = {.directory = directory,
                       .interval = get_number(output, "snapshots", end / 20),
                       .case_text = c->text,
+                      .single = !strcmp(get_text(output, "precision", "double"), "single"),
+                      .compression = compression > 0 ? compression : -1,
                       .command = command};
   sph_sim_add_output(sim, sph_output_hdf5_def(&def));
   const builder b = {.c = c,

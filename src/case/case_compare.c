@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "case_profile.h"
+#include "case_section.h"
 #include "csv.h"
 #include "exact.h"
 #include "file.h"
@@ -164,7 +165,9 @@ static int measure(const comparer *a, sph_case_distance *d, char note[SPH_CASE_N
   *d = wanted(a->node);
   note[0] = 0;
   if (at && !in_space) return fail(a, at, "at: belongs to solutions in space");
-  int status = in_space ? sph_case_profile_compare(a, d, note) : compare_series(a, d);
+  int status = in_space                    ? sph_case_profile_compare(a, d, note)
+               : sph_case_section_known(a) ? sph_case_section_compare(a, d, note)
+                                           : compare_series(a, d);
   return status ? status : divide(a, d);
 }
 
@@ -280,9 +283,11 @@ int sph_case_compare_plot(const sph_case *c, int k, const char *directory, char 
   a.node = comparison(c, k);
   a.kind = a.node ? child_of(a.node, "reference")->first : NULL;
   int in_space = a.kind && sph_case_profile_known(&a);
-  if (!in_space && (!a.kind || strcmp(a.kind->key, "csv")))
+  const int section = a.kind && sph_case_section_known(&a);
+  if (!in_space && !section && (!a.kind || strcmp(a.kind->key, "csv")))
     return sph_error_set(a.error, SPH_ERR_ARGUMENT, "comparison %d has no curves to draw", k);
   if ((size_t)snprintf(png, size, "%s/compare_%d.png", directory, k) >= size)
     return sph_error_set(a.error, SPH_ERR_FILE, "%s: path too long", directory);
+  if (section) return sph_case_section_plot(&a, png);
   return in_space ? sph_case_profile_plot(&a, png) : plot_table(&a, png);
 }

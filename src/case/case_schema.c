@@ -8,6 +8,7 @@
 
 #include "sphode/kernel.h"
 #include "sphode/material.h"
+#include "sphode/neighbors.h"
 
 static const sph_case_mapping mappings[] = {
 #define SPH_CASE_MAPPING(mapping, one, about) {#mapping, one, about},
@@ -42,6 +43,7 @@ static const char *library_word(const char *table, int k, char word[80])
   const char *found = NULL;
   sph_integrator_info info;
   if (!strcmp(table, "@kernels")) found = sph_kernel_name(sph_kernel_get(k));
+  if (!strcmp(table, "@searches")) found = sph_neighbors_search_name(k);
   if (!strcmp(table, "@boundaries")) found = sph_boundary_name(k);
   if (!strcmp(table, "@materials")) found = sph_material_name(k);
   if (!strcmp(table, "@monitors")) found = sph_monitor_type(k);

@@ -91,16 +91,16 @@ void sph_h5_text(sph_h5 *h5, hid_t where, const char *name, const char *value)
 }
 
 /* Chunks of at most 16384 rows, shuffled and deflated where the library can; none for no rows. */
-static hid_t layout(int rank, const hsize_t *size)
+static hid_t layout(int rank, const hsize_t *size, int compression)
 {
   hid_t list = H5Pcreate(H5P_DATASET_CREATE);
   H5Pset_obj_track_times(list, 0); /* the same run gives the same bytes */
   if (size[0] == 0) return list;
   hsize_t chunk[2] = {size[0] < 16384 ? size[0] : 16384, size[1]};
   H5Pset_chunk(list, rank, chunk);
-  if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
+  if (compression >= 0 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
     H5Pset_shuffle(list);
-    H5Pset_deflate(list, 1);
+    H5Pset_deflate(list, compression ? (unsigned)compression : 1);
   }
   return list;
 }
@@ -111,7 +111,7 @@ void sph_h5_array(sph_h5 *h5, hid_t where, const char *name, hid_t stored, hid_t
   if (h5->failed) return;
   int rank = columns ? 2 : 1;
   hsize_t size[2] = {rows, columns};
-  hid_t space = H5Screate_simple(rank, size, NULL), list = layout(rank, size);
+  hid_t space = H5Screate_simple(rank, size, NULL), list = layout(rank, size, h5->compression);
   hid_t made = H5Dcreate2(where, name, stored, space, H5P_DEFAULT, list, H5P_DEFAULT);
   check(h5,
         made >= 0 && (!rows || H5Dwrite(made, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0));

@@ -11,7 +11,8 @@
 typedef struct sph_h5 {
   H5E_auto2_t handler; /* the caller's, and its argument */
   void *handler_data;
-  int failed; /* some write since sph_h5_enter failed; later ones do nothing */
+  int compression; /* of arrays: 1 to 9, as zlib's; 0: 1; -1: none */
+  int failed;      /* some write since sph_h5_enter failed; later ones do nothing */
 } sph_h5;
 
 void sph_h5_enter(sph_h5 *h5);

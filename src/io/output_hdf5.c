@@ -12,6 +12,7 @@
 typedef struct context {
   sph_error error; /* of the constructor; told by open */
   char *directory, *case_text, *command;
+  int single, compression;
   sph_text index[SPH_PARTS]; /* the entries of the .series files so far */
   long frames, room;
   double *time; /* [room] of the frames [s] */
@@ -106,8 +107,12 @@ static int frame_hdf5(void *ctx, sph_sim *sim, sph_error *error)
   char name[SPH_PARTS][40];
   size_t size = 0;
   for (int part = 0; part < SPH_PARTS; part++) file_name(name[part], part, c->frames);
+  const sph_hdf5_def def = {.case_text = c->case_text,
+                            .command = c->command,
+                            .single = c->single,
+                            .compression = c->compression};
   if (note_time(c, time, error)) return SPH_ERR_MEMORY;
-  void *image = sph_snapshot_image(name[0], sim, c->case_text, c->command, &size, error);
+  void *image = sph_snapshot_image(name[0], sim, &def, &size, error);
   int status = write_image(c, name[0], image, size, error);
   if (status == SPH_OK) {
     add_entry(c, SPH_FLUIDS, c->frames, time);
@@ -189,6 +194,12 @@ sph_output sph_output_hdf5_def(const sph_hdf5_def *def)
     c->directory = copy(def->directory, &c->error);
     c->case_text = copy(def->case_text, &c->error);
     c->command = copy(def->command, &c->error);
+    c->single = def->single != 0;
+    c->compression = def->compression;
+    if (def->compression < -1 || def->compression > 9)
+      sph_error_set(&c->error, SPH_ERR_ARGUMENT,
+                    "an HDF5 output: compression %d; right is 1 to 9, 0 (1), -1 (none)",
+                    def->compression);
   }
   return (sph_output){.name = "hdf5",
                       .interval = def->interval,

@@ -398,7 +398,7 @@ static void place_all(context *c, const sph_probe_def *def)
   c->n = def->points ? def->points : n[0] * n[1];
   c->x = SPH_NEW(double, 3 * c->n, "the places of a probe", &c->error);
   if (!c->x) return;
-  if (def->points)
+  if (def->points > 0 && def->x)
     memcpy(c->x, def->x, 3 * (size_t)c->n * sizeof *c->x);
   else
     place_grid(c, def, n);

@@ -37,6 +37,7 @@ typedef struct writer {
   hid_t file;
   sph_sim *sim;
   int dim;
+  int single;
   long n[SPH_PARTS];
   void *buffer; /* [3 * larger n] doubles */
 } writer;
@@ -112,13 +113,15 @@ static const char *unit_of(const writer *w, const sph_field_info *field)
   return strcmp(field->name, "mass") ? field->unit : sph_units_get(SPH_UNIT_MASS, w->dim);
 }
 
+static hid_t stored(const writer *w) { return w->single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE; }
+
 static void write_numbers(writer *w, hid_t where, int part)
 {
   const sph_group *group;
   double *h = w->buffer;
   hsize_t n = (hsize_t)w->n[part];
   for (long i = 0; i < w->n[part]; i++) h[i] = sph_sim_h(w->sim);
-  sph_h5_array(&w->h5, where, "SmoothingLength", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, n, 0, h);
+  sph_h5_array(&w->h5, where, "SmoothingLength", stored(w), H5T_NATIVE_DOUBLE, n, 0, h);
   write_unit(w, where, "SmoothingLength", "m");
   long *id = w->buffer;
   for (int k = 0; (group = next_group(w, part, &k)); k++) {
@@ -142,7 +145,7 @@ static void write_part(writer *w, int part)
   for (int k = 0; (field = sph_group_field(group, k)); k++) {
     if (!field->saved || !gather(w, part, field)) continue;
     const char *name = sph_snapshot_dataset(field->name);
-    sph_h5_array(&w->h5, where, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, (hsize_t)w->n[part],
+    sph_h5_array(&w->h5, where, name, stored(w), H5T_NATIVE_DOUBLE, (hsize_t)w->n[part],
                  field->vector ? 3 : 0, w->buffer);
     write_unit(w, where, name, unit_of(w, field));
   }
@@ -226,7 +229,7 @@ static void write_header(writer *w)
   sph_h5_integer(&w->h5, header, "NumPart_Total", 6, count);
   sph_h5_integer(&w->h5, header, "NumPart_Total_HighWord", 6, (int[6]){0});
   sph_h5_integer(&w->h5, header, "NumFilesPerSnapshot", 0, (int[]){1});
-  sph_h5_integer(&w->h5, header, "Flag_DoublePrecision", 0, (int[]){1});
+  sph_h5_integer(&w->h5, header, "Flag_DoublePrecision", 0, (int[]){!w->single});
   for (size_t k = 0; k < sizeof zeros / sizeof *zeros; k++)
     sph_h5_integer(&w->h5, header, zeros[k], 0, (int[]){0});
   sph_h5_real(&w->h5, header, "MassTable", 6, (double[6]){0});
@@ -316,17 +319,18 @@ static void write_all(writer *w, const char *case_text, const char *command)
   }
 }
 
-void *sph_snapshot_image(const char *name, sph_sim *sim, const char *case_text, const char *command,
-                         size_t *size, sph_error *error)
+void *sph_snapshot_image(const char *name, sph_sim *sim, const sph_hdf5_def *def, size_t *size,
+                         sph_error *error)
 {
-  writer w = {.sim = sim, .dim = sph_sim_dim(sim)};
+  writer w = {.sim = sim, .dim = sph_sim_dim(sim), .single = def->single};
   count_particles(&w);
   long larger = w.n[SPH_FLUIDS] > w.n[SPH_WALLS] ? w.n[SPH_FLUIDS] : w.n[SPH_WALLS];
   w.buffer = sph_memory_new(3 * (size_t)larger + 1, sizeof(double), "a snapshot", error);
   if (!w.buffer) return NULL;
   sph_h5_enter(&w.h5);
+  w.h5.compression = def->compression;
   w.file = sph_h5_create(&w.h5, name);
-  write_all(&w, case_text, command);
+  write_all(&w, def->case_text, def->command);
   void *image = sph_h5_close(&w.h5, w.file, size);
   sph_h5_leave(&w.h5);
   sph_memory_free(w.buffer);

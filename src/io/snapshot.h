@@ -9,9 +9,9 @@
 enum { SPH_FLUIDS, SPH_WALLS, SPH_PARTS }; /* GADGET's particle types 0 and 1 */
 
 /* The bytes of a snapshot of the state that sim shows (sph_memory_free), or NULL.  name tells whose
- * file it will be, for messages. */
-void *sph_snapshot_image(const char *name, sph_sim *sim, const char *case_text, const char *command,
-                         size_t *size, sph_error *error);
+ * file it will be, for messages; of def what is kept in it and how. */
+void *sph_snapshot_image(const char *name, sph_sim *sim, const sph_hdf5_def *def, size_t *size,
+                         sph_error *error);
 /* The bytes of a file whose /VTKHDF is the walls of the snapshot `target` in the same directory. */
 void *sph_snapshot_image_walls(const char *target, size_t *size, sph_error *error);
 

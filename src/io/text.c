@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "memory.h"
 
@@ -45,6 +46,14 @@ void sph_text_add(sph_text *text, const char *format, ...)
   va_start(arguments, format);
   print(text, format, arguments);
   va_end(arguments);
+}
+
+void sph_text_append(sph_text *text, const void *data, size_t bytes)
+{
+  if (!reserve(text, bytes)) return;
+  memcpy(text->data + text->length, data, bytes);
+  text->length += bytes;
+  text->data[text->length] = '\0';
 }
 
 void sph_text_free(sph_text *text)

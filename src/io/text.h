@@ -12,6 +12,8 @@ typedef struct sph_text {
 } sph_text; /* all zero: empty */
 
 void sph_text_add(sph_text *text, const char *format, ...) SPH_PRINTF(2, 3);
+/* Any bytes, NUL among them. */
+void sph_text_append(sph_text *text, const void *data, size_t bytes);
 void sph_text_free(sph_text *text);
 
 /* JSON: a string in quotes, escaped (NULL: null); a number with 15 digits, 17 where needed (not

@@ -13,20 +13,20 @@ struct sph_kernel {
   const char *name;
   double support;
   const char *smoothness;
-  double h_over_dx;
-  double slope_at_0;      /* limit of w' at q -> 0 */
-  double sigma[3];        /* [dim - 1] */
-  double variance[3];     /* sigma_k^2 [dim - 1] */
-  double least[3];        /* value of the Fourier transform [dim - 1] */
-  double rate;            /* over that of Wendland C2 */
-  const char *formula[3]; /* [dim - 1] */
+  double h_over_dx, low, high; /* recommended, and its range in 2D and 3D */
+  double slope_at_0;           /* limit of w' at q -> 0 */
+  double sigma[3];             /* [dim - 1] */
+  double variance[3];          /* sigma_k^2 [dim - 1] */
+  double least[3];             /* value of the Fourier transform [dim - 1] */
+  double rate;                 /* over that of Wendland C2 */
+  const char *formula[3];      /* [dim - 1] */
 };
 
 static const sph_kernel table[] = {
-#define X(number, name, support, smoothness, h_over_dx, slope, s1, s2, s3, v1, v2, v3, l1, l2, l3, \
-          rate, f1, f2, f3)                                                                        \
-  [number] = {number,       name,         support,      smoothness, h_over_dx,   slope,            \
-              {s1, s2, s3}, {v1, v2, v3}, {l1, l2, l3}, rate,       {f1, f2, f3}},
+#define X(number, name, support, smoothness, h_over_dx, low, high, slope, s1, s2, s3, v1, v2, v3, \
+          l1, l2, l3, rate, f1, f2, f3)                                                           \
+  [number] = {number, name,         support,      smoothness,   h_over_dx, low,         high,     \
+              slope,  {s1, s2, s3}, {v1, v2, v3}, {l1, l2, l3}, rate,      {f1, f2, f3}},
 #include "kernels.def"
 #undef X
 };
@@ -59,6 +59,13 @@ double sph_kernel_sigma(const sph_kernel *kernel, int dim)
   return usable(kernel, dim) ? kernel->sigma[dim - 1] : NAN;
 }
 double sph_kernel_h_over_dx(const sph_kernel *kernel) { return kernel ? kernel->h_over_dx : NAN; }
+int sph_kernel_range(const sph_kernel *kernel, int dim, double *low, double *high)
+{
+  if (!usable(kernel, dim)) return SPH_ERR_ARGUMENT;
+  if (low) *low = dim == 1 ? 1 : kernel->low;
+  if (high) *high = dim == 1 ? 3 : kernel->high;
+  return SPH_OK;
+}
 double sph_kernel_rate(const sph_kernel *kernel) { return kernel ? kernel->rate : NAN; }
 double sph_kernel_deviation(const sph_kernel *kernel, int dim)
 {

@@ -1,11 +1,13 @@
 #include "sphode/neighbors.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "memory.h"
 #include "neighbors_data.h"
+#include "searches.h"
 
 static int check(const sph_neighbors_def *def, sph_error *error)
 {
@@ -21,9 +23,7 @@ static int check(const sph_neighbors_def *def, sph_error *error)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "lanes = %d; right is 1, 2, 4 or 8", def->lanes);
   if (def->threads < 0)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "threads = %d; right is >= 0", def->threads);
-  if (def->method && strcmp(def->method, "blocks") && strcmp(def->method, "brute-force"))
-    return sph_error_set(error, SPH_ERR_ARGUMENT, "neighbors \"%s\"; known: blocks, brute-force",
-                         def->method);
+  if (sph_neighbors_search_check(def->search, def->own, error)) return SPH_ERR_ARGUMENT;
   for (int d = 0; d < def->dim; d++) {
     if (!def->periodic[d]) continue;
     if (!(def->length[d] >= 2 * def->reach && def->length[d] < INFINITY) ||
@@ -58,6 +58,16 @@ static void list_bits(sph_bits *list)
       if (k >> bit & 1) list->place[k][list->count[k]++] = bit;
 }
 
+static int set_search(sph_neighbors *nb, const sph_neighbors_def *def, sph_error *error)
+{
+  nb->own = !def->search && def->own;
+  if (!nb->own) return sph_neighbors_search_make(def->search, &nb->def, &nb->search, error);
+  nb->search = *def->own;
+  snprintf(nb->name, sizeof nb->name, "%s", def->own->name);
+  nb->search.name = nb->name;
+  return SPH_OK;
+}
+
 sph_neighbors *sph_neighbors_create(const sph_neighbors_def *def, sph_error *error)
 {
   if (!def) {
@@ -68,15 +78,16 @@ sph_neighbors *sph_neighbors_create(const sph_neighbors_def *def, sph_error *err
   sph_neighbors *nb = SPH_NEW(sph_neighbors, 1, "the neighbour search", error);
   if (!nb) return NULL;
   nb->def = *def;
-  nb->def.method = NULL;
-  nb->brute_force = def->method && !strcmp(def->method, "brute-force");
+  nb->def.search = NULL;
+  nb->def.own = NULL;
+  nb->brute_force = def->search && !strcmp(def->search, "brute-force");
   if (def->dx == 0 || def->dx > def->reach) nb->def.dx = def->reach / (def->dx ? 1 : 3);
   if (nb->def.lanes == 0) nb->def.lanes = 1;
   if (nb->def.threads == 0) nb->def.threads = 1;
   make_images(nb);
   list_bits(&nb->bits);
   nb->scratch = SPH_NEW(sph_runs, nb->def.threads, "scratch of the neighbour search", error);
-  if (nb->scratch) return nb;
+  if (nb->scratch && !set_search(nb, def, error)) return nb;
   sph_neighbors_free(nb);
   return NULL;
 }
@@ -92,11 +103,10 @@ static void free_list(sph_pair_list *list)
 void sph_neighbors_free(sph_neighbors *nb)
 {
   if (!nb) return;
+  if (nb->search.free) nb->search.free(nb->search.ctx);
   for (int s = 0; s < SPH_SETS_MAX; s++) {
     sph_set *set = &nb->set[s];
     sph_memory_free(set->order);
-    sph_memory_free(set->cell);
-    sph_memory_free(set->start);
     for (int d = 0; d < 3; d++) {
       sph_memory_free(set->wrap[d]);
       sph_memory_free(set->x[d]);
@@ -139,7 +149,7 @@ const double (*sph_neighbors_shifts(const sph_neighbors *nb, int *count))[3]
 
 static double set_bytes(const sph_set *set)
 {
-  double bytes = sizeof(int) * (double)(2 * set->room + set->start_room);
+  double bytes = sizeof(int) * (double)set->room;
   for (int d = 0; d < 3; d++) {
     if (set->x[d]) bytes += sizeof(double) * (double)(set->room + SPH_LANES_MAX);
     if (set->wrap[d]) bytes += sizeof(double) * (double)set->room;
@@ -151,6 +161,7 @@ double sph_neighbors_bytes(const sph_neighbors *nb)
 {
   if (!nb) return 0;
   double bytes = (double)sizeof *nb + (double)nb->def.threads * sizeof *nb->scratch;
+  if (nb->search.bytes) bytes += nb->search.bytes(nb->search.ctx);
   for (int s = 0; s < SPH_SETS_MAX; s++) {
     bytes += set_bytes(&nb->set[s]);
     for (int t = 0; t < SPH_SETS_MAX; t++) {

@@ -11,26 +11,26 @@ SPH_ISA_BUILT(DECLARE)
 
 /* The fastest instance of that many lanes that this processor runs; else the reference, which
  * takes any number. */
-static sph_neighbors_search *search_of(int lanes)
+static sph_neighbors_lister *lister_of(int lanes)
 {
-  sph_neighbors_search *search = sph_neighbors_loops_reference.search;
+  sph_neighbors_lister *list = sph_neighbors_loops_reference.list;
 #define MATCH(isa)                                             \
   if (sph_cpu_lanes(SPH_ISA_##isa) == lanes &&                 \
       sph_cpu_isa(sph_cpu_isa_name(SPH_ISA_##isa), NULL) >= 0) \
-    search = sph_neighbors_loops_##isa.search;
+    list = sph_neighbors_loops_##isa.list;
   SPH_ISA_BUILT(MATCH)
 #undef MATCH
-  return search;
+  return list;
 }
 
 /* The reference: all sources, in all images. */
-static void search_all(const sph_neighbors *nb, const sph_set *target, const sph_set *source,
-                       long begin, long end, long *first, sph_runs *out)
+static void list_all(const sph_neighbors *nb, int target, int source, long begin, long end,
+                     long *first, sph_runs *out)
 {
   (void)target;
   for (long b = begin; b < end; b++) {
     first[b] = out->n;
-    for (int m = 0; m < nb->images; m++) sph_neighbors_runs_add(out, 0, source->n, m);
+    for (int m = 0; m < nb->images; m++) sph_neighbors_runs_add(out, 0, nb->set[source].n, m);
   }
 }
 
@@ -60,6 +60,10 @@ static int join(sph_neighbors *nb, sph_pair_list *list, long blocks, sph_error *
     if (nb->scratch[k].status) status = nb->scratch[k].status;
   }
   if (!status) status = sph_neighbors_runs_reserve(&list->runs, more);
+  if (status == SPH_ERR_ARGUMENT)
+    return sph_error_set(error, status,
+                         "search %s: found stretches that are not 0 .. %d, rising, apart",
+                         nb->search.name, SPH_STRETCHES);
   if (status) return sph_error_set(error, status, "out of memory: neighbour runs");
   for (int k = 1; k < threads; k++) {
     const sph_runs *share = &nb->scratch[k];
@@ -79,9 +83,8 @@ int sph_neighbors_build(sph_neighbors *nb, int target, int source, sph_error *er
   if (!sph_neighbors_order(nb, target) || !sph_neighbors_order(nb, source))
     return sph_error_set(error, SPH_ERR_STATE, "list %d <- %d: sort both sets first", target,
                          source);
-  const sph_set *t = &nb->set[target], *s = &nb->set[source];
-  long blocks = (t->n + nb->def.lanes - 1) / nb->def.lanes;
-  sph_neighbors_search *search = nb->brute_force ? search_all : search_of(nb->def.lanes);
+  long blocks = (nb->set[target].n + nb->def.lanes - 1) / nb->def.lanes;
+  sph_neighbors_lister *lister = nb->brute_force ? list_all : lister_of(nb->def.lanes);
   sph_pair_list *list = open_list(nb, target, source, blocks, error);
   if (!list) return SPH_ERR_MEMORY;
   int threads = nb->def.threads;
@@ -89,7 +92,8 @@ int sph_neighbors_build(sph_neighbors *nb, int target, int source, sph_error *er
   for (int k = 0; k < threads; k++) {
     sph_runs *share = k == 0 ? &list->runs : &nb->scratch[k];
     share->n = share->status = 0;
-    search(nb, t, s, blocks * k / threads, blocks * (k + 1) / threads, list->first, share);
+    lister(nb, target, source, blocks * k / threads, blocks * (k + 1) / threads, list->first,
+           share);
   }
   return join(nb, list, blocks, error);
 }

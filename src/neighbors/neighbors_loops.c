@@ -1,8 +1,8 @@
-/* The search of one instruction set: a source is kept if a target of the block is within reach.
+/* Lists of one instruction set: a source is kept if a target of the block is within reach.
  *
- * Stretches of the sorted order that can hold such sources are tested STEP sources at a time
- * against every target of the block: the least distance squared to the block, one comparison, one
- * mask.  With c the middle of the block, u = x_i - c, y = x_j - c,
+ * Stretches of the sorted order that can hold such sources, as the search finds them, are tested
+ * STEP sources at a time against every target of the block: the least distance squared to the
+ * block, one comparison, one mask.  With c the middle of the block, u = x_i - c, y = x_j - c,
  *   |x_i - x_j|^2 = |y|^2 + (|u|^2 - 2 u.y):
  * what is in brackets costs three operations a pair.  The reference (SPH_LANES == 1) takes blocks
  * of any size. */
@@ -11,20 +11,23 @@
 #include "neighbors_data.h"
 #include "sphode/simd.h"
 
-enum { STRETCHES = 512, COLUMNS = 64, PIECE = 256, MARKS = 8 * PIECE };
+enum { PIECE = 256, MARKS = 8 * PIECE };
 enum {
   STEP = SPH_LANES_MAX,
   PARTS = STEP / SPH_LANES
 }; /* sources tested at once; vectors of them */
 
-typedef struct stretch {
-  int begin, end; /* sorted places of the source */
-} stretch;
-
 typedef struct block {
   double x[3][SPH_LANES_MAX]; /* targets; a short last block repeats its last one */
   double lo[3], hi[3];
 } block;
+
+/* Sources of a set, for the runs of `out`. */
+typedef struct asked {
+  const sph_neighbors *nb;
+  int source;
+  sph_runs *out;
+} asked;
 
 typedef struct probe {
   double centre[3];
@@ -65,68 +68,20 @@ BODY block shifted(int dim, int lanes, const block *t, const double *shift)
   return moved;
 }
 
-BODY int reaches(int dim, double reach, const block *t, const double *shift, const sph_grid *grid)
+BODY int reaches(int dim, double reach, const block *t, const double *shift, const sph_set *source)
 {
   for (int d = 0; d < dim; d++)
-    if (t->lo[d] - shift[d] - grid->hi[d] > reach || grid->lo[d] - (t->hi[d] - shift[d]) > reach)
+    if (t->lo[d] - shift[d] - source->hi[d] > reach ||
+        source->lo[d] - (t->hi[d] - shift[d]) > reach)
       return 0;
   return 1;
 }
 
-/* Squared distances from [lo, hi] to the columns of direction d that it reaches, *from .. *from +
- * count - 1; columns at the edge of the grid go on without end.  Returns count, 0: too many. */
-BODY int across(const sph_grid *grid, int d, double lo, double hi, double reach, long *from,
-                double *gap2)
-{
-  long first = sph_grid_cell(grid, d, lo - reach), last = sph_grid_cell(grid, d, hi + reach);
-  if (last - first >= COLUMNS) return 0;
-  for (long k = first; k <= last; k++) {
-    double left = grid->origin[d] + (double)k * grid->size[d], right = left + grid->size[d];
-    if (left > grid->cut[d] + grid->rounding[d]) left += grid->skip[d];
-    if (right > grid->cut[d] - grid->rounding[d]) right += grid->skip[d];
-    double below = k > 0 ? left - hi : 0, above = k < grid->cells[d] - 1 ? lo - right : 0;
-    double gap = (below > above ? below : above) - grid->rounding[d];
-    gap2[k - first] = gap > 0 ? gap * gap : 0;
-  }
-  *from = first;
-  return (int)(last - first + 1);
-}
-
-/* The stretches of all columns that [lo, hi] reaches, in sorted order; the part of a column that
- * it reaches is narrowed by its distance.  Returns how many; STRETCHES + 1: too many. */
-BODY int columns(int dim, double reach, const sph_set *source, const double *lo, const double *hi,
-                 stretch *out, int n)
-{
-  const sph_grid *grid = &source->grid;
-  const int z = dim - 1;
-  const double reach2 = reach * reach * (1 + 1e-12);
-  double gap2[2][COLUMNS];
-  long from[2] = {0, 0};
-  int count[2] = {1, 1};
-  gap2[0][0] = gap2[1][0] = 0;
-  for (int d = 0; d < z; d++)
-    if (!(count[d] = across(grid, d, lo[d], hi[d], reach, &from[d], gap2[d]))) return STRETCHES + 1;
-  if (n + count[0] * count[1] > STRETCHES) return STRETCHES + 1;
-  for (int a = 0; a < count[0]; a++)
-    for (int b = 0; b < count[1]; b++) {
-      double rest = reach2 - gap2[0][a] - gap2[1][b];
-      if (rest <= 0) continue;
-      rest = sqrt(rest) * (1 + 1e-12);
-      long column = z == 0 ? 0 : from[0] + a;
-      if (z == 2) column = column * grid->cells[1] + from[1] + b;
-      const int *start = source->start + column * grid->cells[z];
-      out[n].begin = start[sph_grid_cell(grid, z, lo[z] - rest)];
-      out[n].end = start[sph_grid_cell(grid, z, hi[z] + rest) + 1];
-      n += out[n].begin < out[n].end;
-    }
-  return n;
-}
-
 /* Sorts by begin and joins what overlaps. */
-static int merge(stretch *s, int n)
+static int merge(sph_stretch *s, int n)
 {
   for (int k = 1; k < n; k++) {
-    stretch here = s[k];
+    sph_stretch here = s[k];
     int m = k;
     for (; m > 0 && s[m - 1].begin > here.begin; m--) s[m] = s[m - 1];
     s[m] = here;
@@ -165,19 +120,35 @@ BODY int part(int dim, int lanes, double reach, const block *t, int l, double *l
   return l;
 }
 
+/* What the search finds around lo .. hi; a user's own is held to its promise. */
+static int ask(const asked *q, const double *lo, const double *hi, int max, sph_stretch *out)
+{
+  const sph_search *search = &q->nb->search;
+  int n = search->near(search->ctx, q->source, lo, hi, q->nb->def.reach, max, out), last = 0;
+  if (!q->nb->own) return n;
+  int good = n >= 0 && n <= max;
+  for (int k = 0; good && k < n; k++) {
+    good =
+        out[k].begin >= last && out[k].end > out[k].begin && out[k].end <= q->nb->set[q->source].n;
+    last = out[k].end;
+  }
+  if (!good && !q->out->status) q->out->status = SPH_ERR_ARGUMENT;
+  return good ? n : 0;
+}
+
 /* All sources that can be near the block.  Where its targets lie apart (a column ends, far
  * flyers) the search is for one compact part after the other. */
-BODY int candidates(int dim, int lanes, double reach, const sph_set *source, const block *t,
-                    stretch *out)
+BODY int candidates(int dim, int lanes, const asked *q, const block *t, sph_stretch *out)
 {
-  if (compact(dim, reach, t->lo, t->hi)) return columns(dim, reach, source, t->lo, t->hi, out, 0);
+  const double reach = q->nb->def.reach;
+  if (compact(dim, reach, t->lo, t->hi)) return ask(q, t->lo, t->hi, SPH_STRETCHES, out);
   int n = 0;
-  for (int l = 0; l < lanes && n <= STRETCHES;) {
+  for (int l = 0; l < lanes;) {
     double lo[3] = {0}, hi[3] = {0};
     l = part(dim, lanes, reach, t, l, lo, hi);
-    n = columns(dim, reach, source, lo, hi, out, n);
+    n += ask(q, lo, hi, SPH_STRETCHES / SPH_LANES_MAX, out + n);
   }
-  return n <= STRETCHES ? merge(out, n) : n;
+  return merge(out, n);
 }
 
 /* The limit leaves room for rounding: the terms are at most about (|u| + |y|)^2, each to a few
@@ -226,7 +197,7 @@ BODY unsigned near(int dim, int lanes, const sph_set *source, const probe *p, in
 
 /* Marks where the bits change; at most PIECE sources.  All STEP places are written, only the
  * changes are kept: how many there are is hard to foretell for a processor. */
-BODY void test(int dim, int lanes, const sph_set *source, const probe *p, stretch s,
+BODY void test(int dim, int lanes, const sph_set *source, const probe *p, sph_stretch s,
                const sph_bits *list, marks *restrict m)
 {
   unsigned inside = 0;
@@ -262,49 +233,46 @@ static void add_runs(marks *m, int image, sph_runs *out)
   out->n = last - out->run;
 }
 
-BODY void search_image(int dim, int lanes, double reach, const sph_set *source, const block *t,
-                       int image, const sph_bits *bits, marks *m, sph_runs *out)
+BODY void search_image(int dim, int lanes, const asked *q, const block *t, int image, marks *m)
 {
-  stretch found[STRETCHES];
-  int n = candidates(dim, lanes, reach, source, t, found);
-  if (n > STRETCHES) { /* cells far smaller than the reach: all of it */
-    found[0] = (stretch){0, (int)source->n};
-    n = 1;
-  }
-  const probe p = make_probe(dim, lanes, reach, t);
+  sph_stretch found[SPH_STRETCHES];
+  const sph_set *source = &q->nb->set[q->source];
+  const int n = candidates(dim, lanes, q, t, found);
+  const probe p = make_probe(dim, lanes, q->nb->def.reach, t);
   for (int k = 0; k < n; k++)
-    for (stretch s = {found[k].begin, 0}; s.begin < found[k].end; s.begin = s.end) {
+    for (sph_stretch s = {found[k].begin, 0}; s.begin < found[k].end; s.begin = s.end) {
       s.end = found[k].end - s.begin > PIECE ? s.begin + PIECE : found[k].end;
-      test(dim, lanes, source, &p, s, bits, m);
-      if (m->n > MARKS) add_runs(m, image, out);
+      test(dim, lanes, source, &p, s, &q->nb->bits, m);
+      if (m->n > MARKS) add_runs(m, image, q->out);
     }
-  add_runs(m, image, out);
+  add_runs(m, image, q->out);
 }
 
-BODY void search_blocks(int dim, int lanes, const sph_neighbors *nb, const sph_set *target,
-                        const sph_set *source, long begin, long end, long *first, sph_runs *out)
+BODY void list_blocks(int dim, int lanes, const asked *q, int target, long begin, long end,
+                      long *first)
 {
-  const double reach = nb->def.reach;
+  const sph_neighbors *nb = q->nb;
   marks m;
   m.n = 0;
   for (long b = begin; b < end; b++) {
-    first[b] = out->n;
-    const block t = load(dim, lanes, target, b);
+    first[b] = q->out->n;
+    const block t = load(dim, lanes, &nb->set[target], b);
     for (int image = 0; image < nb->images; image++) {
-      if (!reaches(dim, reach, &t, nb->shift[image], &source->grid)) continue;
+      if (!reaches(dim, nb->def.reach, &t, nb->shift[image], &nb->set[q->source])) continue;
       const block here = shifted(dim, lanes, &t, nb->shift[image]);
-      search_image(dim, lanes, reach, source, &here, image, &nb->bits, &m, out);
+      search_image(dim, lanes, q, &here, image, &m);
     }
   }
 }
 
-static void search(const sph_neighbors *nb, const sph_set *target, const sph_set *source,
-                   long begin, long end, long *first, sph_runs *out)
+static void list(const sph_neighbors *nb, int target, int source, long begin, long end, long *first,
+                 sph_runs *out)
 {
   const int lanes = SPH_LANES == 1 ? nb->def.lanes : SPH_LANES;
-  if (nb->def.dim == 1) search_blocks(1, lanes, nb, target, source, begin, end, first, out);
-  if (nb->def.dim == 2) search_blocks(2, lanes, nb, target, source, begin, end, first, out);
-  if (nb->def.dim == 3) search_blocks(3, lanes, nb, target, source, begin, end, first, out);
+  const asked q = {nb, source, out};
+  if (nb->def.dim == 1) list_blocks(1, lanes, &q, target, begin, end, first);
+  if (nb->def.dim == 2) list_blocks(2, lanes, &q, target, begin, end, first);
+  if (nb->def.dim == 3) list_blocks(3, lanes, &q, target, begin, end, first);
 }
 
-const sph_neighbors_table SPH_ISA_NAME(sph_neighbors_loops) = {search};
+const sph_neighbors_table SPH_ISA_NAME(sph_neighbors_loops) = {list};

@@ -33,7 +33,7 @@ static int check(const sph_operator_def *def, sph_error *error)
   return SPH_OK;
 }
 
-static sph_neighbors *make_neighbors(const sph_operator *op, const char *method, sph_error *error)
+static sph_neighbors *make_neighbors(const sph_operator *op, const char *name, sph_error *error)
 {
   const sph_operator_def *def = &op->def;
   sph_neighbors_def search = {.dim = def->dim,
@@ -41,7 +41,7 @@ static sph_neighbors *make_neighbors(const sph_operator *op, const char *method,
                               .dx = def->h / sph_kernel_h_over_dx(op->kernel),
                               .lanes = sph_cpu_lanes(op->isa),
                               .threads = def->threads,
-                              .method = method};
+                              .search = name};
   for (int d = 0; d < 3; d++) {
     search.periodic[d] = def->periodic[d];
     search.origin[d] = def->origin[d];
@@ -62,12 +62,12 @@ sph_operator *sph_operator_create(const sph_operator_def *def, sph_error *error)
   sph_operator *op = SPH_NEW(sph_operator, 1, "operators", error);
   if (!op) return NULL;
   op->def = *def;
-  op->def.kernel = op->def.neighbors = NULL;
+  op->def.kernel = op->def.search = NULL;
   if (op->def.threads == 0) op->def.threads = 1;
   op->kernel = kernel;
   op->isa = isa;
   while (sph_kernel_get(op->number) != kernel) op->number++;
-  op->neighbors = make_neighbors(op, def->neighbors, error);
+  op->neighbors = make_neighbors(op, def->search, error);
   op->row = op->neighbors ? SPH_NEW(sph_row, op->def.threads, "rows of operators", error) : NULL;
   if (op->row) return op;
   sph_operator_free(op);

@@ -129,7 +129,7 @@ static int make_vectors(sph_adjoint *a)
 
 sph_adjoint *sph_adjoint_create(sph_sim *sim, const sph_adjoint_def *def)
 {
-  if (!sph_sim_data_ok(sim) || sph_sim_prepare(sim)) return NULL;
+  if (!sph_sim_data_ok(sim) || sph_sim_prepare(sim) || sph_sim_tangent_fit(sim)) return NULL;
   if (!def || def->n < 0 || (def->n && !def->parameters) || def->checkpoints < 0) {
     sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                  "adjoint: definition %s, %d parameters, %d checkpoints; right are 0 or more",

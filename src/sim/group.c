@@ -7,6 +7,7 @@
 #include "eos_table.h"
 #include "memory.h"
 #include "sim_energy.h"
+#include "sim_mirror.h"
 #include "sim_run.h"
 
 static int ok(const sph_group *group) { return group && sph_sim_data_ok(group->sim); }
@@ -85,21 +86,29 @@ void sph_group_set_boundary(sph_group *group, sph_boundary boundary)
   if (kept && !group->wall)
     kept = !sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
                          "group %s is a fluid: boundaries are for walls", group->name);
-  if (kept && (!boundary.name || !sph_boundary_formula(boundary.name)))
-    kept = !sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s: boundary \"%s\"; known: %s",
-                         group->name, boundary.name ? boundary.name : "", sph_boundary_name(0));
+  int model = 0;
+  while (sph_boundary_name(model) &&
+         (!boundary.name || strcmp(sph_boundary_name(model), boundary.name)))
+    model++;
+  if (kept && !sph_boundary_name(model))
+    kept = !sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
+                         "group %s: boundary \"%s\"; known: adami, dbc, mirror", group->name,
+                         boundary.name ? boundary.name : "");
   if (kept && !(boundary.temperature >= 0 && boundary.temperature < INFINITY))
     kept =
         !sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
                       "group %s: temperature of the boundary %g K; right is > 0 and finite, or 0: "
                       "adiabatic",
                       group->name, boundary.temperature);
+  kept = kept && !sph_sim_mirror_take(group->sim, group, &boundary);
   if (!kept) {
     if (boundary.free) boundary.free(boundary.ctx);
     return;
   }
   if (group->boundary.free) group->boundary.free(group->boundary.ctx);
   group->boundary = boundary;
+  group->boundary.name = sph_boundary_name(model);
+  group->model = (enum sph_wall_model)model;
   group->has_boundary = 1;
 }
 

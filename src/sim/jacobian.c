@@ -218,7 +218,7 @@ int sph_jacobian_evaluate(sph_jacobian *open)
 
 sph_jacobian *sph_jacobian_create(sph_sim *sim, const sph_jacobian_def *def)
 {
-  if (!sph_sim_data_ok(sim) || sph_sim_prepare(sim)) return NULL;
+  if (!sph_sim_data_ok(sim) || sph_sim_prepare(sim) || sph_sim_tangent_fit(sim)) return NULL;
   jacobian *J = SPH_NEW(jacobian, 1, "a Jacobian", &sim->error);
   if (!J) return NULL;
   J->sim = sim;

@@ -161,6 +161,7 @@ static double cover(const points *near_by, const double x[3], const sph_kernel *
   for (long j = 0; j < near_by->n; j++) {
     double r2 = 0;
     for (int d = 0; d < near_by->dim; d++) {
+      // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): dim <= 3
       double s = apart(near_by, d, near_by->x[d][j] - x[d]);
       r2 += s * s;
     }

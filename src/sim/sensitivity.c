@@ -154,7 +154,7 @@ static int make_integrator(sph_sensitivity *s)
 sph_sensitivity *sph_sensitivity_create(sph_sim *sim, int n,
                                         const sph_sensitivity_parameter *parameters)
 {
-  if (!sph_sim_data_ok(sim) || sph_sim_prepare(sim)) return NULL;
+  if (!sph_sim_data_ok(sim) || sph_sim_prepare(sim) || sph_sim_tangent_fit(sim)) return NULL;
   if (n < 1 || !parameters) {
     sph_sim_fail(sim, SPH_ERR_ARGUMENT, "sensitivities to %d parameters; right is 1 or more", n);
     return NULL;

@@ -10,6 +10,7 @@
 #include "cpu.h"
 #include "linear.h"
 #include "memory.h"
+#include "searches.h"
 #include "sim_data.h"
 #include "sim_event.h"
 #include "sim_implicit.h"
@@ -93,12 +94,11 @@ static void set_box(sph_sim *sim, const sph_sim_def *def)
 
 static void set_search(sph_sim *sim, const sph_sim_def *def)
 {
-  const char *method = def->neighbors ? def->neighbors : "blocks";
-  if (strcmp(method, "blocks") && strcmp(method, "brute-force"))
-    sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "neighbors \"%s\"; known: blocks, brute-force",
-                  method);
-  snprintf(sim->neighbors_method, sizeof sim->neighbors_method, "%s", method);
   sim->isa = sph_cpu_isa(def->isa, &sim->error);
+  sph_neighbors_search_check(def->search, def->own_search, &sim->error);
+  sim->uses_own_search = !def->search && def->own_search;
+  const char *name = sim->uses_own_search ? def->own_search->name : def->search;
+  snprintf(sim->search, sizeof sim->search, "%s", name ? name : "grid");
 }
 
 sph_sim *sph_sim_create(const sph_sim_def *def)
@@ -110,6 +110,8 @@ sph_sim *sph_sim_create(const sph_sim_def *def)
     sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "sph_sim_create: no definition (NULL)");
     def = &nothing;
   }
+  if (def->own_search) sim->own_search = *def->own_search; /* to be freed, whatever follows */
+  sim->own_search.name = sim->search;
   sim->dim = def->dim;
   if (def->dim < 1 || def->dim > 3)
     sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "dim = %d; right is 1, 2 or 3", def->dim);
@@ -152,9 +154,14 @@ void sph_sim_add_term(sph_sim *sim, sph_term term)
                  term.name ? term.name : "");
     kept = 0;
   }
+  const int between = term.name && !strcmp(term.name, "shifting") && term.steps > 0;
   if (kept && sph_term_set_add(&sim->terms, &term, &sim->error) == SPH_OK)
     for (int g = 0; g < sim->groups; g++) sph_group_scalars_added(sim->group[g]);
   if (!kept && term.free) term.free(term.ctx);
+  if (kept && between)
+    sph_sim_add_modifier(sim, (sph_modifier){.name = "shifting",
+                                             .steps = term.steps,
+                                             .modify = sph_sim_shift_step});
 }
 
 void sph_sim_set_scale(sph_sim *sim, const sph_group *group, const char *field, double scale)
@@ -354,6 +361,7 @@ void sph_sim_free(sph_sim *sim)
   for (int k = 0; k < sim->modifiers; k++)
     if (sim->modifier[k].modifier.free)
       sim->modifier[k].modifier.free(sim->modifier[k].modifier.ctx);
+  if (sim->own_search.free) sim->own_search.free(sim->own_search.ctx);
   sph_sim_keep_free(sim);
   sph_term_set_free(&sim->terms);
   sph_memory_free(sim);

@@ -28,7 +28,7 @@ enum { SPH_WHOLE = SPH_PIECE_COUNT, SPH_PARTS };
 /* Bits of terms, not of how they are added up. */
 enum {
   SPH_PAIR_TERMS = SPH_CONTINUITY | SPH_PRESSURE_FORCE | SPH_VISCOUS | SPH_DIFFUSION |
-                   SPH_CONDUCTIVITY | SPH_CONDUCTION | SPH_XSPH
+                   SPH_CONDUCTIVITY | SPH_CONDUCTION | SPH_XSPH | SPH_STRESS
 };
 
 /* A part of f: its terms, and the phases that an evaluation of them needs (sim_parts.c). */
@@ -40,8 +40,8 @@ typedef struct sph_part {
   /* What its evaluations limit: steps by waves and motion, and these terms. */
   int acoustic, motion;
   unsigned limit_terms, limit_called;
-  int lists, density, eos, walls, gradients, drag, pairs; /* phases */
-  int only_walls;                                         /* pairs: of fluids with walls alone */
+  int lists, density, eos, walls, gradients, shift, drag, pairs; /* phases */
+  int only_walls; /* pairs: of fluids with walls alone */
   /* Registered pair terms, the fields that they read, what they add to. */
   int tiles;
   unsigned tile_fields, tile_adds;
@@ -56,6 +56,7 @@ typedef struct sph_sorted {
   double *sum[SPH_PAIR_SUMS]; /* [room]; NULL for those that no loop makes */
   double *phi;                /* of the row phi, not sorted, [room]; NULL: another row */
   double *built[3];           /* positions at the last list build, not sorted, [capacity] */
+  double *shifted;            /* records of shift_pair.h, as many; NULL: nothing shifts */
 } sph_sorted;
 
 typedef struct sph_outlet {
@@ -110,7 +111,9 @@ struct sph_sim {
   /* Fixed when created. */
   int dim, threads, isa, kernel_number, periodic[3];
   const sph_kernel *kernel;
-  char neighbors_method[SPH_METHOD_MAX];
+  int uses_own_search;
+  char search[SPH_METHOD_MAX];                        /* or the name of the user's own */
+  sph_search own_search;                              /* the user's */
   double dx, h, H, skin, speed, origin[3], length[3]; /* H: support radius; skin [m] */
   double h_sound;             /* of the acoustic step limit, at most h [m] */
   double volume, wall_volume; /* of a particle: dx^dim, unless calibrated [m^dim] */
@@ -147,9 +150,11 @@ struct sph_sim {
   int fluid_sums;      /* sums that its loops make */
   int needs_temperature;
   sph_part part[SPH_PARTS];
-  struct sph_implicit *implicit;          /* solves stages of the implicit part; NULL without one */
-  fluid_constants constants;              /* of no interaction: for walls and gradients */
-  double F_scale, W_scale;                /* sigma/h^(d+2), sigma/h^d */
+  struct sph_implicit *implicit; /* solves stages of the implicit part; NULL without one */
+  fluid_constants constants;     /* of no interaction: for walls and gradients */
+  long surface;                  /* fluid particles at a free surface, in the last evaluation
+                                             of what shifts */
+  double F_scale, W_scale;       /* sigma/h^(d+2), sigma/h^d */
   double scale[SPH_SETS_MAX][SPH_FIELDS]; /* error weights: scale of each field */
   double step_scale_v;                    /* V of the error weights [m/s] */
   double given[SPH_CHANGEABLE];           /* parameters at the start (sim_keep.c) */
@@ -171,6 +176,7 @@ struct sph_sim {
   double pairs_now; /* directed pairs inside the support, at the last list build */
   double pairs, seconds, rhs_seconds, solve_seconds; /* solve: implicit stages, with f in them */
   long list_builds, revision, matrices;              /* matrices: that implicit stages filled */
+  long bounced; /* particles that came back from behind a mirror */
 };
 
 /* Any call on a simulation without an error?  NULL: no. */

@@ -16,7 +16,8 @@ static const char *first_of(const sph_sim *sim, unsigned bits)
 static int separable(sph_sim *sim)
 {
   const char *method = sph_sim_integrator(sim);
-  const char *term = first_of(sim, SPH_VISCOUS | SPH_XSPH | SPH_DRAG);
+  const char *term = first_of(sim, SPH_VISCOUS | SPH_XSPH | SPH_DRAG |
+                                       (sim->part[SPH_WHOLE].shift ? SPH_SHIFTS : 0));
   for (int k = 0; !term && k < sim->terms.called; k++)
     if (sim->terms.call[k].term.body && !sim->terms.call[k].term.potential)
       term = sim->terms.call[k].name;
@@ -43,7 +44,8 @@ static int separable(sph_sim *sim)
 
 static int bounded(sph_sim *sim)
 {
-  const char *term = first_of(sim, SPH_SIGNAL | SPH_CONDUCTIVITY);
+  const char *term = first_of(sim, SPH_SIGNAL | SPH_CONDUCTIVITY | SPH_STRESS |
+                                       (sim->part[SPH_WHOLE].shift ? SPH_SHIFTS : 0));
   if (!term) return SPH_OK;
   return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                       "integrator %s needs a bound of the eigenvalues of all terms, and there is "
@@ -58,6 +60,11 @@ static int relaxing(sph_sim *sim)
   for (int g = 0; g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
     const int field = sph_group_data_energy(group);
+    if (group->model == SPH_MODEL_DBC)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "relax energy: the density of wall %s (dbc) stores work of the fluid; "
+                          "right is boundary adami or mirror",
+                          group->name);
     if (group->wall) continue;
     linear &= field == SPH_TOTAL_ENERGY;
     if (field == SPH_ENTROPY || field == SPH_TEMPERATURE)

@@ -20,7 +20,7 @@ int sph_sim_interaction_same_species(const sph_group *target, const sph_group *s
 
 int sph_sim_interaction_listed(const sph_sim *sim, const sph_group *target, const sph_group *source)
 {
-  if (target->wall && source->wall) return 0;
+  if (target->wall && (source->wall || target->model == SPH_MODEL_MIRROR)) return 0;
   return sph_sim_interaction_same_species(target, source) || sph_sim_drag_acts(sim, target, source);
 }
 
@@ -28,10 +28,12 @@ static unsigned terms_of(const sph_part *part, const sph_group *target, const sp
 {
   unsigned terms = part->terms;
   if (!sph_sim_interaction_same_species(target, source)) return 0;
-  if (target->eos.dust) /* without gradient matrices */
-    return terms & (SPH_CONTINUITY | SPH_FORM_C2 | SPH_FORM_PHI | SPH_THERMAL);
+  if (target->eos.dust) return terms & (SPH_CONTINUITY | SPH_FORM_C2 | SPH_FORM_PHI | SPH_THERMAL);
   if (!sph_sim_interaction_same_fluid(target, source)) terms &= ~(unsigned)SPH_DIFFUSION;
   if (!source->wall) return terms;
+  if (source->model == SPH_MODEL_MIRROR) /* all of them, as with the fluid */
+    return terms | SPH_WALL |
+           (source->boundary.no_slip && ((terms & SPH_VISCOUS) || part->tiles) ? SPH_NO_SLIP : 0);
   terms &= ~(unsigned)(SPH_CONDUCTIVITY | SPH_XSPH);
   if (!(source->boundary.temperature > 0)) terms &= ~(unsigned)SPH_CONDUCTION; /* adiabatic */
   if (!source->boundary.no_slip)
@@ -76,11 +78,14 @@ fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part
                        .signal_1 = -set->signal_alpha,
                        .signal_2 = set->signal_beta,
                        .alpha_u = set->alpha_u,
-                       .epsilon = set->epsilon};
+                       .epsilon = set->epsilon,
+                       .stress_tension = set->stress_alpha,
+                       .stress_pressure = set->stress_beta};
   material(sim, target, source, &k);
   if (k.laminar == 0) k.terms &= ~(unsigned)(SPH_MORRIS | SPH_MCG);
   if (k.conduction == 0) k.terms &= ~(unsigned)SPH_CONDUCTION;
-  k.terms = (k.terms & ~(unsigned)SPH_CORRECTED) | fluid_corrections(k.terms);
+  if (k.terms & SPH_STRESS)
+    k.inverse_w_dx = sim->W_scale / sph_kernel_w(sim->kernel, sim->dim, sim->dx, h);
   if (k.terms & SPH_FOURTAKAS) column(sim, &target->eos, &k);
   return k;
 }
@@ -98,20 +103,13 @@ tile_constants sph_sim_interaction_tile(const sph_evaluation *e, const fluid_con
                       .source = sim->group[source]->name,
                       .slots = (int)sim->sorted[target].stride,
                       .scalars = sim->terms.scalars,
-                      .isothermal = sim->group[source]->boundary.temperature > 0,
+                      .isothermal = sim->group[source]->boundary.temperature > 0 ||
+                                    sim->group[source]->model == SPH_MODEL_MIRROR,
                       .fields = part->tile_fields,
                       .adds = part->tile_adds,
                       .terms = part->tiles};
   memcpy(k.term, part->tile, sizeof k.term);
   return k;
-}
-
-/* Built-in terms alone. */
-static void add_fluid(sph_sim *sim, const fluid_constants *k, int target, int source)
-{
-  if (k->terms & SPH_PAIR_TERMS)
-    sph_sim_pairs_loop(sim, sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, k->terms),
-                       target, source, k);
 }
 
 /* Registered pair terms beside the built-in ones. */
@@ -128,7 +126,7 @@ void sph_sim_interaction_tiles(sph_evaluation *e, int target, int source)
   const sph_sim *sim = e->sim;
   fluid_constants k =
       sph_sim_interaction_constants(sim, e->part, sim->group[target], sim->group[source]);
-  k.terms &= ~(unsigned)(SPH_PAIR_TERMS | SPH_CORRECTED);
+  k.terms &= ~(unsigned)SPH_PAIR_TERMS;
   add_tiles(e, &k, target, source);
 }
 
@@ -137,13 +135,11 @@ void sph_sim_interaction_add(sph_evaluation *e, int target, int source)
   sph_sim *sim = e->sim;
   const fluid_constants k =
       sph_sim_interaction_constants(sim, e->part, sim->group[target], sim->group[source]);
-  const int tiles = e->part->tiles && !sim->group[target]->eos.dust;
-  if (!tiles || (k.terms & SPH_CORRECTED)) add_fluid(sim, &k, target, source);
-  if (!tiles) return;
-  if (k.terms & SPH_CORRECTED)
-    sph_sim_interaction_tiles(e, target, source); /* no matrices in tiles */
-  else
+  if (e->part->tiles && !sim->group[target]->eos.dust)
     add_tiles(e, &k, target, source);
+  else if (k.terms & SPH_PAIR_TERMS)
+    sph_sim_pairs_loop(sim, sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, k.terms), target,
+                       source, &k);
 }
 
 /* ---- which fields tiles hold ---- */

@@ -36,6 +36,7 @@ static int keep_field(const sph_group *group, int field, const double *y, sph_ke
 static int keep_group(const sph_group *group, sph_keep *keep)
 {
   const double *y = sph_nvector_data(group->sim->y);
+  if (group->model == SPH_MODEL_MIRROR) return SPH_OK; /* images of what is kept */
   sph_keep_enter(keep, group->name);
   int status = sph_keep_match(keep, "particles", group->n);
   for (int field = 0; !status && field < SPH_SCALAR + group->scalars; field++)

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "keep.h"
-#include "sim_rhs.h"
+#include "sim_mirror.h"
 
 enum { PARALLEL_MIN = 4096 };
 
@@ -31,7 +31,7 @@ static double moved2(const sph_sim *sim, int g, const sph_view *view)
 static int current(const sph_evaluation *e)
 {
   const sph_sim *sim = e->sim;
-  if (!sim->listed) return 0;
+  if (!sim->listed || sph_sim_mirror_moved(sim, e->t)) return 0;
   for (int g = 0; g < sim->groups; g++)
     if (!(moved2(sim, g, &e->view[g]) <= sim->skin * sim->skin / 4)) return 0;
   return 1;
@@ -49,6 +49,8 @@ static int build(sph_sim *sim)
 {
   sph_error error = {0};
   sim->listed = 0;
+  int status = sph_sim_mirror_make(sim);
+  if (status) return status;
   for (int g = 0; !error.status && g < sim->groups; g++) {
     double *const *x = sim->sorted[g].built;
     sph_neighbors_sort(sim->neighbors, g, sim->group[g]->n,
@@ -65,11 +67,25 @@ static int build(sph_sim *sim)
   return SPH_OK;
 }
 
+/* Their number, and where their fields are, changed with the build. */
+static void look_anew(sph_evaluation *e)
+{
+  const sph_sim *sim = e->sim;
+  for (int g = 0; g < sim->groups; g++)
+    if (sim->group[g]->model == SPH_MODEL_MIRROR) {
+      e->view[g] = sph_group_data_view(sim->group[g], NULL, NULL);
+      sph_sim_mirror_place(e, g);
+    }
+}
+
 int sph_sim_lists_update(sph_evaluation *e)
 {
   if (current(e)) return SPH_OK;
   for (int g = 0; g < e->sim->groups; g++) take_down(e, g);
-  return build(e->sim);
+  sph_sim_mirror_stand(e->sim, e->t);
+  int status = build(e->sim);
+  if (!status) look_anew(e);
+  return status;
 }
 
 /* The order of particles, and so the bits of sums, is that of the last build: it is made again from
@@ -80,8 +96,11 @@ int sph_sim_lists_keep(sph_sim *sim, sph_keep *keep)
   int listed = sim->listed, status = sph_keep_int(keep, "listed", &listed);
   sph_keep_enter(keep, "group");
   for (int g = 0; !status && listed && g < sim->groups; g++) {
+    const int mirror = sim->group[g]->model == SPH_MODEL_MIRROR; /* its ghosts are made again */
     sph_keep_enter(keep, sim->group[g]->name);
-    for (int d = 0; d < sim->dim && d < 3; d++)
+    if (mirror) status = sph_keep_real(keep, "placed", 3, sim->group[g]->placed);
+    if (mirror && !status) status = sph_keep_integer(keep, "bounced", 1, &sim->bounced);
+    for (int d = 0; !mirror && d < sim->dim && d < 3; d++)
       status = sph_keep_real(keep, axis[d], sim->group[g]->n, sim->sorted[g].built[d]);
     sph_keep_leave(keep);
   }

@@ -16,12 +16,12 @@ typedef struct packing {
   sph_view view;
   const int *order;
   const double *wrap[3];   /* periodic boxes to subtract; NULL: not periodic */
-  double *const *wall_sum; /* of the extrapolation; NULL for fluids */
+  double *const *wall_sum; /* of the extrapolation; NULL for others than adami walls */
+  double *const *seen;     /* velocity that viscous terms see of other walls; NULL for fluids */
   double wall_T;           /* of an isothermal wall [K], else 0 */
   const double *phi;       /* NULL: another row */
   double *record;
   long stride;
-  int scalars; /* in the records: those of pair terms alone */
 } packing;
 
 static packing packing_of(const sph_evaluation *e, int g)
@@ -29,12 +29,14 @@ static packing packing_of(const sph_evaluation *e, int g)
   const sph_sim *sim = e->sim;
   packing k = {.sim = sim, .view = e->view[g], .order = sph_neighbors_order(sim->neighbors, g)};
   for (int d = 0; d < sim->dim; d++) k.wrap[d] = sph_neighbors_wrap(sim->neighbors, g, d);
-  k.wall_sum = sim->group[g]->wall ? sim->sorted[g].sum : NULL;
-  k.wall_T = sim->group[g]->boundary.temperature;
+  const sph_group *group = sim->group[g];
+  if (group->wall && group->model == SPH_MODEL_ADAMI) k.wall_sum = sim->sorted[g].sum;
+  if (group->model == SPH_MODEL_DBC) k.seen = e->view[g].v;
+  if (group->model == SPH_MODEL_MIRROR) k.seen = group->start;
+  k.wall_T = group->boundary.temperature;
   k.phi = sim->sorted[g].phi;
   k.record = sim->sorted[g].record;
   k.stride = sim->sorted[g].stride;
-  k.scalars = sim->part[SPH_WHOLE].tiles ? sim->terms.scalars : 0;
   return k;
 }
 
@@ -53,7 +55,7 @@ static double slip_velocity(const packing *k, int d, long s, long i)
 /* The temperature that conduction sees: 2 T - <T_fluid>, so that T is that of the surface. */
 static double temperature(const packing *k, long s, long i)
 {
-  if (!k->wall_sum) return k->view.T ? k->view.T[i] : 0;
+  if (!k->wall_sum) return k->view.T ? k->view.T[i] : k->wall_T;
   double W = k->wall_sum[SPH_WALL_W][s];
   return W > 0 && k->wall_T > 0 ? 2 * k->wall_T - k->wall_sum[SPH_WALL_T][s] / W : 0;
 }
@@ -64,7 +66,9 @@ static inline void pack_more(const packing *k, int dim, long s, long i, double *
   const sph_view *view = &k->view;
   const unsigned terms = k->sim->loop_terms;
   for (int d = 0; d < dim; d++)
-    record[slot_extra(dim) + d] = k->wall_sum ? slip_velocity(k, d, s, i) : 0;
+    record[slot_extra(dim) + d] = k->wall_sum ? slip_velocity(k, d, s, i)
+                                  : k->seen   ? k->seen[d][i]
+                                              : 0;
   if (terms & SPH_THERMAL) {
     record[slot_u(dim)] = view->u ? view->u[i] : 0;
     record[slot_T(dim)] = temperature(k, s, i);
@@ -73,7 +77,7 @@ static inline void pack_more(const packing *k, int dim, long s, long i, double *
     record[slot_phi(dim)] = k->phi[i];
     record[slot_p(dim)] *= k->phi[i];
   }
-  for (int q = 0; q < k->scalars; q++)
+  for (int q = 0; q < k->sim->terms.scalars; q++)
     record[slot_scalar(dim) + q] = view->s[q] ? view->s[q][i] : 0;
 }
 
@@ -133,7 +137,7 @@ void sph_sim_pairs_pack_positions(const sph_evaluation *e, int g)
 {
   const sph_sim *sim = e->sim;
   const packing k = packing_of(e, g);
-  const int wall = sim->group[g]->wall;
+  const int wall = sim->group[g]->wall && sim->group[g]->model == SPH_MODEL_ADAMI;
   const double wall_mass = sim->group[g]->rho0 * sim->wall_volume;
   for (long s = 0; s < e->view[g].n; s++) {
     const long i = k.order[s];
@@ -152,11 +156,19 @@ void sph_sim_pairs_clear(sph_sim *sim, int g, int sums)
 void sph_sim_pairs_loop(sph_sim *sim, sph_pair_function *loop, int target, int source,
                         const void *constants)
 {
+  sph_sim_pairs_loop_records(sim, loop, target, source, NULL, NULL, 0, constants);
+}
+
+void sph_sim_pairs_loop_records(sph_sim *sim, sph_pair_function *loop, int target, int source,
+                                const double *record, const double *source_record, long stride,
+                                const void *constants)
+{
   const sph_list list = sph_neighbors_list(sim->neighbors, target, source);
-  const sph_pair_task task = {.target = sim->sorted[target].record,
-                              .source = sim->sorted[source].record,
-                              .target_stride = sim->sorted[target].stride,
-                              .source_stride = sim->sorted[source].stride,
+  const sph_sorted *to = &sim->sorted[target], *from = &sim->sorted[source];
+  const sph_pair_task task = {.target = record ? record : to->record,
+                              .source = record ? source_record : from->record,
+                              .target_stride = record ? stride : to->stride,
+                              .source_stride = record ? stride : from->stride,
                               .first = list.first,
                               .runs = list.runs,
                               .shift = sph_neighbors_shifts(sim->neighbors, NULL),
@@ -222,6 +234,7 @@ int sph_sim_pairs_add(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
   for (int g = 0; g < sim->groups; g++) {
+    if (sim->group[g]->wall) sph_sim_walls_rates(e, g);
     if (sim->group[g]->wall) continue;
     if (e->part->pairs) sph_sim_pairs_clear(sim, g, sim->fluid_sums);
     for (int s = 0; s < sim->groups && e->part->pairs; s++)

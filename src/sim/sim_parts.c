@@ -11,7 +11,8 @@
  *   those that read p, c, u, T; body terms; walls    eos
  *   pair terms that act at walls                     walls
  *   drag                                             drag
- *   Antuono's diffusion, corrected terms             gradients; these: walls */
+ *   Antuono's diffusion                              gradients
+ *   shifting, transport velocity                     shift */
 #include "sim_parts.h"
 
 #include <string.h>
@@ -20,7 +21,8 @@
 #include "term_part.h"
 
 enum {
-  READ_EOS = SPH_PRESSURE_FORCE | SPH_ARTIFICIAL | SPH_SIGNAL | SPH_CONDUCTIVITY | SPH_CONDUCTION,
+  READ_EOS = SPH_PRESSURE_FORCE | SPH_ARTIFICIAL | SPH_SIGNAL | SPH_CONDUCTIVITY | SPH_CONDUCTION |
+             SPH_STRESS,
   WALLS_READ_EOS = SPH_CONTINUITY | SPH_DIFFUSION, /* mass, phi, density of wall particles */
   TILES_READ_EOS = 1 << SPH_TILE_PRESSURE | 1 << SPH_TILE_SOUND_SPEED | 1 << SPH_TILE_ENERGY |
                    1 << SPH_TILE_TEMPERATURE
@@ -69,14 +71,16 @@ static void choose(const sph_sim *sim, sph_part *part, int piece)
     part->called = called_of(sim, number[piece]);
     part->positions = part->motion = piece == home;
   } else {
-    if (piece == SPH_PIECE_DRIFT) bits = SPH_XSPH, part->called = 0;
-    if (piece == SPH_PIECE_KICK) bits = ~(unsigned)SPH_XSPH;
+    const unsigned moving = SPH_XSPH | SPH_SHIFTS;
+    if (piece == SPH_PIECE_DRIFT) bits = moving, part->called = 0;
+    if (piece == SPH_PIECE_KICK) bits = ~moving;
     part->positions = piece != SPH_PIECE_KICK;
     part->motion = piece != SPH_PIECE_DRIFT;
   }
   part->acoustic = part->motion && ((loop & SPH_PRESSURE_FORCE) || sim->terms.pairs);
   part->gravity = sim->terms.uniform && (bits & SPH_UNIFORM);
   part->drag = (loop & bits & SPH_DRAG) != 0;
+  part->shift = (loop & bits & SPH_SHIFTS) && !sim->terms.shift.steps;
   part->rates = loop & bits & SPH_PAIR_TERMS;
   if (sim->terms.summed) part->rates &= ~(unsigned)SPH_CONTINUITY;
   part->terms = part->rates;
@@ -93,7 +97,7 @@ static int meets_walls(const sph_sim *sim, const sph_part *part)
   for (int g = 0; g < sim->groups; g++)
     for (int w = 0; w < sim->groups; w++)
       if (!sim->group[g]->wall && sim->group[w]->wall &&
-          (part->tiles ||
+          (part->tiles || part->shift ||
            (sph_sim_interaction_constants(sim, part, sim->group[g], sim->group[w]).terms &
             SPH_PAIR_TERMS)))
         return 1;
@@ -114,14 +118,12 @@ static void bodies_read(const sph_sim *sim, sph_part *part)
 static void find_phases(const sph_sim *sim, sph_part *part)
 {
   const int whole = part == &sim->part[SPH_WHOLE]; /* also tells what is shown */
-  part->pairs = whole || part->rates || part->tiles || part->drag;
+  part->pairs = whole || part->rates || part->tiles || part->drag || part->shift;
   if (part->pairs) part->terms |= sim->loop_terms & (SPH_FORM_C2 | SPH_FORM_PHI | SPH_THERMAL);
-  if (part->pairs)
-    part->terms |= fluid_corrections(part->terms | (sim->loop_terms & SPH_CORRECTED));
-  part->gradients = (part->rates & SPH_ANTUONO) || (part->terms & SPH_CORRECTED);
-  part->walls = whole || (part->terms & SPH_CORRECTED) || (part->pairs && meets_walls(sim, part));
+  part->walls = whole || (part->pairs && meets_walls(sim, part));
+  part->gradients = (part->rates & SPH_ANTUONO) != 0;
   /* Of a wall that only viscosity or conduction sees, pressure and density count for nothing. */
-  part->eos = (part->walls && ((part->rates & WALLS_READ_EOS) || part->tiles)) ||
+  part->eos = (part->walls && ((part->rates & WALLS_READ_EOS) || part->tiles || part->shift)) ||
               (part->rates & READ_EOS) || (part->tile_fields & TILES_READ_EOS) || part->acoustic ||
               whole;
   part->density = part->pairs || part->eos;
@@ -134,6 +136,7 @@ int sph_sim_parts_of(sph_sim *sim, sph_part *part, unsigned bits, unsigned calle
 {
   *part = (sph_part){.called = called, .rates = sim->loop_terms & bits & SPH_PAIR_TERMS};
   part->drag = (sim->loop_terms & bits & SPH_DRAG) != 0;
+  part->shift = (sim->loop_terms & bits & SPH_SHIFTS) != 0;
   part->terms = part->rates;
   int status = sph_sim_interaction_prepare(sim, part);
   if (!status) find_phases(sim, part);
@@ -153,7 +156,8 @@ int sph_sim_parts_make(sph_sim *sim)
   for (int piece = 0; piece < SPH_PARTS; piece++) {
     const sph_part *limits =
         piece <= SPH_PIECE_FAST ? &sim->part[piece] : &sim->part[SPH_PIECE_EXPLICIT];
-    sim->part[piece].limit_terms = limits->rates | (limits->drag ? SPH_DRAG : 0);
+    sim->part[piece].limit_terms = limits->rates | (limits->drag ? SPH_DRAG : 0) |
+                                   (limits->shift ? sim->loop_terms & SPH_SHIFTS : 0);
     sim->part[piece].limit_called = limits->called;
   }
   return status;

@@ -19,6 +19,7 @@
 static const unsigned bits_of[] = {
     SPH_CONTINUITY,   SPH_PRESSURE_FORCE, SPH_ARTIFICIAL, SPH_SIGNAL, SPH_MORRIS | SPH_MCG,
     SPH_CONDUCTIVITY, SPH_CONDUCTION,     SPH_DIFFUSION,  SPH_DRAG,   SPH_UNIFORM,
+    SPH_SHIFTING,     SPH_TRANSPORT,      SPH_STRESS,
 };
 enum { BUILT_IN = sizeof bits_of / sizeof *bits_of };
 
@@ -28,6 +29,7 @@ static unsigned find(const sph_sim *sim, int k, const sph_called_term **call)
   const sph_term_set *set = &sim->terms;
   unsigned bits = set->bits | (set->uniform ? SPH_UNIFORM : 0);
   if (set->drag_K > 0 || set->drag_rate > 0) bits |= SPH_DRAG;
+  if (set->shift.steps) bits &= ~(unsigned)SPH_SHIFTING; /* between steps: no part of f */
   *call = NULL;
   for (int b = 0; b < BUILT_IN; b++)
     if ((bits & bits_of[b]) && k-- == 0) return bits_of[b];
@@ -100,6 +102,7 @@ static int evaluate(sph_sim *sim, unsigned bits, const sph_called_term *call, N_
   e.part = &part;
   status = sph_sim_bodies_add(&e);
   if (!status) status = sph_sim_gradients(&e);
+  if (!status) status = sph_sim_shift_add(&e);
   if (!status) status = sph_sim_drag_add(&e);
   if (!status) status = sph_sim_pairs_add(&e);
   if (status > 0) status = sph_sim_fail(sim, SPH_ERR_STEP, "t = %g s: %s", sim->time, sim->retry);

@@ -7,17 +7,20 @@
 #include "eos_table.h"
 #include "gradient_pair.h"
 #include "memory.h"
+#include "shift_pair.h"
 #include "sim_dominant.h"
 #include "sim_energy.h"
 #include "sim_fit.h"
 #include "sim_implicit.h"
 #include "sim_keep.h"
+#include "sim_mirror.h"
 #include "sim_parts.h"
 #include "sim_relax.h"
 #include "sim_rhs.h"
 #include "sim_tangent.h"
 #include "sim_weights.h"
 #include "sundials.h"
+#include "term_part.h"
 #include "wall_pair.h"
 
 /* Does every group have what it needs? */
@@ -128,15 +131,49 @@ static int check_fourtakas(sph_sim *sim, const sph_group *group)
                       group->name, eos->name, x);
 }
 
+/* What follows the particles where they shift: density and velocity of one liquid. */
+static int check_advection(sph_sim *sim, const sph_group *group, const sph_group *first)
+{
+  const unsigned bits = sim->terms.bits;
+  const char *name = bits & SPH_SHIFTING ? "shifting" : "transport-velocity";
+  if (!(bits & SPH_SHIFTS)) return SPH_OK;
+  if (!sph_sim_interaction_same_fluid(group, first))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "%s: density would follow across from %s to %s, which differ in reference "
+                        "density or sound speed; right is advection = 0",
+                        name, first->name, group->name);
+  if (sph_group_data_energy(group) >= 0 || sim->terms.scalars)
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "%s: density and velocity follow the particles of %s, but not its %s; "
+                        "right is advection = 0",
+                        name, group->name,
+                        sim->terms.scalars ? sim->terms.scalar[0].name : sph_group_energy(group));
+  return SPH_OK;
+}
+
+static int check_shift(sph_sim *sim, const sph_group *group, const sph_group *first)
+{
+  const sph_term *shift = &sim->terms.shift;
+  if ((sim->terms.bits & SPH_TRANSPORT) && !(group->eos.c0 > 0 && group->eos.rho0 > 0))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "transport-velocity: equation of state %s of %s has no reference density "
+                        "and sound speed (rho0 = %g, c0 = %g)",
+                        group->eos.name, group->name, group->eos.rho0, group->eos.c0);
+  return shift->advection ? check_advection(sim, group, first) : SPH_OK;
+}
+
 static int check_terms(sph_sim *sim)
 {
   double viscosity = 0, conductivity = 0;
   int status = SPH_OK, dusty = 0;
+  const sph_group *first = NULL;
   for (int g = 0; !status && g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
     dusty |= group->eos.dust;
     if (group->wall || group->eos.dust) continue;
+    if (!first) first = group;
     status = check_heat(sim, group);
+    if (!status) status = check_shift(sim, group, first);
     if (!status && (sim->terms.bits & SPH_DIFFUSION) && sim->terms.delta > 0 &&
         !(group->eos.c0 > 0))
       status = sph_sim_fail(
@@ -158,6 +195,37 @@ static int check_terms(sph_sim *sim)
     status = sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                           "drag: there is no dust: a group with equation of state sph_eos_dust");
   return status;
+}
+
+/* What dynamic boundary particles and mirrors do not go with. */
+static int check_walls(sph_sim *sim)
+{
+  const char *implicit = sph_term_part_first(&sim->terms, SPH_TERM_IMPLICIT);
+  for (int g = 0; g < sim->groups; g++) {
+    const sph_group *group = sim->group[g];
+    if (!group->wall || group->model == SPH_MODEL_ADAMI) continue;
+    if (implicit)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "wall %s: implicit terms (%s) know adami walls alone, not %s",
+                          group->name, implicit, group->boundary.name);
+    if (group->model == SPH_MODEL_MIRROR) continue;
+    if (group->eos.thermal)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "wall %s: dbc has no energy for equation of state %s; right is one "
+                          "p(rho), or boundary adami",
+                          group->name, group->eos.name);
+    if (sim->terms.summed || !(sim->terms.bits & SPH_CONTINUITY))
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "wall %s: the density of dbc follows the term continuity, which there "
+                          "is not",
+                          group->name);
+    for (long i = 0; i < group->n; i++)
+      if (!(group->own[SPH_DENSITY][0][i] > 0 && group->own[SPH_DENSITY][0][i] < INFINITY))
+        return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                            "wall %s, particle %ld: density %g; right is > 0", group->name, i,
+                            group->own[SPH_DENSITY][0][i]);
+  }
+  return SPH_OK;
 }
 
 /* Positions may have been written since walls were added: their motion starts there. */
@@ -190,18 +258,15 @@ static int make_terms(sph_sim *sim)
   if (terms->alpha == 0 && terms->beta == 0) bits &= ~(unsigned)SPH_ARTIFICIAL;
   if (terms->signal_alpha == 0) bits &= ~(unsigned)SPH_SIGNAL;
   if (terms->epsilon == 0) bits &= ~(unsigned)SPH_XSPH;
+  if (terms->stress_alpha == 0 && terms->stress_beta == 0) bits &= ~(unsigned)SPH_STRESS;
+  if (terms->shift.strength == 0) bits &= ~(unsigned)SPH_SHIFTING;
   if (terms->delta == 0) bits &= ~(unsigned)SPH_DIFFUSION;
   if (terms->drag_K == 0 && terms->drag_rate == 0) bits &= ~(unsigned)SPH_DRAG;
-  bits = (bits & ~(unsigned)SPH_CORRECTED) | fluid_corrections(bits);
   sim->loop_terms = bits;
   sim->constants = (fluid_constants){.terms = bits};
   sph_sim_prepare_h(sim);
   sim->needs_temperature = (bits & SPH_CONDUCTION) || sph_sim_implicit_heats(sim);
   int status = sph_sim_parts_make(sim);
-  if (!status && sim->part[SPH_WHOLE].tiles && terms->scalars && (bits & SPH_CORRECTED))
-    status = sph_sim_fail(sim, SPH_ERR_ARGUMENT,
-                          "corrected terms beside pair terms of your own with scalars: there is no "
-                          "room for both in the loops; right is correction none, or no scalar");
   if (!status && sim->has_integrator) status = sph_sim_fit(sim);
   sim->fluid_sums = bits & SPH_RARE ? SPH_FLUID_SUMS_ALL : SPH_FLUID_SUMS;
   if (sim->part[SPH_WHOLE].tiles) sim->fluid_sums = SPH_SUM_SCALAR + terms->scalars;
@@ -243,10 +308,37 @@ static int make_vectors(sph_sim *sim)
 /* Sums of the loops over a group. */
 static int sums_of(const sph_sim *sim, const sph_group *group)
 {
+  if (group->model == SPH_MODEL_MIRROR) return 0; /* images are no targets */
   int sums = group->wall ? SPH_WALL_SUMS : sim->fluid_sums;
-  if (!group->wall && (sim->loop_terms & (SPH_ANTUONO | SPH_CORRECTED)))
+  if (group->model == SPH_MODEL_DBC) sums = SPH_FLUID_SUMS_ALL;
+  if (!group->wall && (sim->loop_terms & SPH_ANTUONO))
     sums = sums > gradient_sums(sim->dim) ? sums : gradient_sums(sim->dim);
+  if (!group->wall && (sim->loop_terms & SPH_SHIFTS)) {
+    const int own = shift_concentration_sums(sim->dim);
+    sums = sums > own ? sums : own;
+  }
   return sums;
+}
+
+int sph_sim_prepare_room(sph_sim *sim, int g)
+{
+  sph_sorted *sorted = &sim->sorted[g];
+  const size_t old = (size_t)sorted->room, room = (size_t)sim->group[g]->capacity;
+  if (old >= (size_t)sim->group[g]->n + 1) return SPH_OK;
+  int status =
+      sph_memory_grow((void **)&sorted->record, 0, room * (size_t)sorted->stride + SPH_PAIR_SLOTS,
+                      sizeof(double), "records", &sim->error);
+  for (int d = 0; !status && d < sim->dim; d++)
+    status = sph_memory_grow((void **)&sorted->built[d], old, room, sizeof(double),
+                             "positions of the lists", &sim->error);
+  if (!status && sorted->phi)
+    status = sph_memory_grow((void **)&sorted->phi, 0, room, sizeof(double), "phi", &sim->error);
+  if (!status && sorted->shifted)
+    status = sph_memory_grow((void **)&sorted->shifted, 0,
+                             room * (size_t)shift_slots(sim->dim) + SPH_PAIR_SLOTS, sizeof(double),
+                             "records of what shifts", &sim->error);
+  if (!status) sorted->room = (long)room;
+  return status;
 }
 
 static int make_sorted(sph_sim *sim, int g)
@@ -265,18 +357,24 @@ static int make_sorted(sph_sim *sim, int g)
     sorted->sum[s] = SPH_NEW(double, sorted->room, "pair sums", &sim->error);
   for (int d = 0; d < sim->dim; d++)
     sorted->built[d] = SPH_NEW(double, sorted->room, "positions of the lists", &sim->error);
+  if (sim->loop_terms & SPH_SHIFTS)
+    sorted->shifted = SPH_NEW(double, sorted->room *shift_slots(sim->dim) + SPH_PAIR_SLOTS,
+                              "records of what shifts", &sim->error);
   if (terms & SPH_FORM_PHI) sorted->phi = SPH_NEW(double, sorted->room, "phi", &sim->error);
   return sim->error.status;
 }
 
 static int make_search(sph_sim *sim)
 {
+  sph_search own = sim->own_search;
+  own.free = NULL; /* it is the simulation's */
   sph_neighbors_def def = {.dim = sim->dim,
                            .reach = sim->H + sim->skin,
                            .dx = sim->dx,
                            .lanes = sph_cpu_lanes(sim->isa),
                            .threads = sim->threads,
-                           .method = sim->neighbors_method};
+                           .search = sim->uses_own_search ? NULL : sim->search,
+                           .own = sim->uses_own_search ? &own : NULL};
   for (int d = 0; d < sim->dim; d++) {
     def.periodic[d] = sim->periodic[d];
     def.origin[d] = sim->origin[d];
@@ -309,6 +407,11 @@ static int admissible(double t, N_Vector y, void *ctx)
   (void)t;
   for (int g = 0; g < sim->groups; g++) {
     sph_view view = sph_group_data_view(sim->group[g], sph_nvector_data(y), NULL);
+    const int dynamic = sim->group[g]->model == SPH_MODEL_DBC;
+    for (long i = 0; dynamic && i < view.n; i++)
+      if (!(view.rho[i] > 0 && view.rho[i] < INFINITY))
+        return sph_sim_admit_retry(sim, "%s: particle %ld left the admissible states: density %g",
+                                   sim->group[g]->name, i, view.rho[i]);
     for (long i = 0; !sim->group[g]->wall && i < view.n; i++) {
       double size = view.rho[i] + (view.energy ? fabs(view.energy[i]) : 0);
       for (int q = 0; q < sim->terms.scalars; q++) size += fabs(view.s[q][i]);
@@ -332,7 +435,7 @@ sph_problem sph_sim_prepare_problem(sph_sim *sim)
 {
   return (sph_problem){.ctx = sim,
                        .threads = sim->threads,
-                       .drift = (sim->loop_terms & SPH_XSPH) != 0,
+                       .drift = sim->part[SPH_WHOLE].shift || (sim->loop_terms & SPH_XSPH),
                        .rhs = sph_sim_rhs,
                        .weights = sph_sim_weights,
                        .rhs_piece = sph_sim_rhs_piece,
@@ -371,10 +474,11 @@ int sph_sim_prepare(sph_sim *sim)
   if (!status) status = check_groups(sim);
   if (!status) status = check_values(sim);
   if (!status) status = check_terms(sim);
-  if (!status) status = sph_sim_reset_check(sim);
+  if (!status) status = check_walls(sim);
   if (!status) status = sph_sim_implicit_check(sim);
   if (!status) start_walls(sim);
   if (!status) status = make_terms(sim);
+  if (!status) status = sph_sim_mirror_check(sim);
   if (!status) status = start_groups(sim);
   if (!status) status = make_vectors(sim);
   if (!status) status = sph_sim_weights_check(sim);
@@ -390,6 +494,11 @@ int sph_sim_prepare(sph_sim *sim)
         "%ld particles start nearer than 0.1 dx = %g m to another (a wall in the fluid, "
         "or two shapes that overlap?)",
         sim->near, 0.1 * sim->dx);
+  if (!status && (sim->loop_terms & SPH_TRANSPORT) && sim->surface > 0)
+    status = sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "transport-velocity: %ld particles start at a free surface, which would "
+                          "spread; right is shifting with surface = 1",
+                          sim->surface);
   if (!status) status = make_rates_anew(sim);
   if (!status) sph_sim_weights_scales(sim);
   if (!status) status = sph_sim_implicit_make(sim);
@@ -417,6 +526,7 @@ void sph_sim_prepare_undo(sph_sim *sim)
   for (int g = 0; g < sim->groups; g++) {
     sph_memory_free(sim->sorted[g].record);
     sph_memory_free(sim->sorted[g].phi);
+    sph_memory_free(sim->sorted[g].shifted);
     for (int s = 0; s < SPH_PAIR_SUMS; s++) sph_memory_free(sim->sorted[g].sum[s]);
     for (int d = 0; d < 3; d++) sph_memory_free(sim->sorted[g].built[d]);
   }

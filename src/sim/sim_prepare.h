@@ -9,6 +9,8 @@ int sph_sim_prepare(sph_sim *sim);
 sph_problem sph_sim_prepare_problem(sph_sim *sim);
 /* What is made of the smoothing length. */
 void sph_sim_prepare_h(sph_sim *sim);
+/* Room in the sorted copy of group g for one particle more. */
+int sph_sim_prepare_room(sph_sim *sim, int g);
 void sph_sim_prepare_undo(sph_sim *sim); /* lets go of all that it made */
 
 #endif

@@ -26,6 +26,7 @@ static int phases(sph_evaluation *e)
   if (!status) status = sph_comm_exchange(SPH_COMM_WALLS);
   if (!status) status = sph_sim_gradients(e); /* prepare */
   if (!status) status = sph_comm_exchange(SPH_COMM_GRADIENTS);
+  if (!status) status = sph_sim_shift_add(e); /* shift */
   if (!status) status = sph_sim_drag_add(e);  /* drag */
   if (!status) status = sph_sim_pairs_add(e); /* pairs */
   if (!status) status = sph_sim_admit(e);     /* admit */
@@ -79,17 +80,14 @@ int sph_sim_rhs_fast(double t, N_Vector y, N_Vector ydot, void *ctx)
   return sph_sim_rhs_piece(SPH_PIECE_FAST, t, y, ydot, ctx);
 }
 
-static int show(sph_sim *sim, double t, N_Vector y, int anew)
+int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y)
 {
   sph_evaluation e = {.sim = sim, .t = t, .part = &sim->part[SPH_WHOLE]};
   sph_sim_rhs_views(&e, y, NULL);
   int status = sph_sim_walls_move(&e);
-  if (!status && (anew || !sim->listed)) status = sph_sim_lists_update(&e);
+  if (!status && !sim->listed) status = sph_sim_lists_update(&e);
   if (!status) status = sph_sim_density(&e);
   if (!status) status = sph_sim_material_eos(&e);
   if (!status) status = sph_sim_walls_fill(&e);
   return status;
 }
-
-int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y) { return show(sim, t, y, 0); }
-int sph_sim_rhs_show_anew(sph_sim *sim, double t, N_Vector y) { return show(sim, t, y, 1); }

@@ -19,8 +19,6 @@ typedef struct sph_evaluation {
 void sph_sim_rhs_views(sph_evaluation *e, N_Vector y, N_Vector ydot);
 /* Pressure, sound speed and walls of the state (t, y), with the lists as they are. */
 int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y);
-/* ... with the lists brought up to date. */
-int sph_sim_rhs_show_anew(sph_sim *sim, double t, N_Vector y);
 /* Any part of f; lists, records, pressures and walls are then those of (t, y). */
 int sph_sim_rhs_part(sph_sim *sim, const sph_part *part, double t, N_Vector y, N_Vector ydot);
 /* A part of f: enum sph_piece, or SPH_WHOLE. */
@@ -37,6 +35,7 @@ int sph_sim_walls_move(sph_evaluation *e);             /* walls: prescribed moti
 int sph_sim_walls_fill(sph_evaluation *e);             /* walls: extrapolation */
 int sph_sim_gradients(sph_evaluation *e);              /* prepare */
 void sph_sim_pairs_pack(sph_evaluation *e, int walls); /* sorted copies of fluids, or of walls */
+int sph_sim_shift_add(sph_evaluation *e);              /* shift */
 int sph_sim_drag_add(sph_evaluation *e);               /* drag */
 int sph_sim_pairs_add(sph_evaluation *e);              /* pairs */
 int sph_sim_admit(sph_evaluation *e);                  /* admit */
@@ -45,12 +44,14 @@ int sph_sim_admit(sph_evaluation *e);                  /* admit */
 void sph_sim_pairs_rates(sph_evaluation *e, int g);
 /* p, rho, m, c of the particles of wall g from its sums; the force g - a_w that it feels. */
 void sph_sim_walls_finish(const sph_evaluation *e, int g);
+/* d rho/dt of dynamic boundary particles: all of it. */
+void sph_sim_walls_rates(sph_evaluation *e, int g);
 void sph_sim_walls_force(const sph_evaluation *e, int g, double g_minus_a[3]);
+/* Cholesky of the dim x dim matrix A - shift I; 0 where it is not positive definite. */
+int sph_sim_gradients_cholesky(int dim, double A[3][3], double shift, double L[3][3]);
 /* Cholesky factor of the gradient matrix at sorted place s, of its sums; 0: the gradient is left
  * out there.  x = (L L^T)^-1 x. */
 int sph_sim_gradients_factor(const sph_sim *sim, double *const *matrix, long s, double L[3][3]);
-/* Cholesky factor L of the dim x dim matrix A - shift I; 0 where that is not positive definite. */
-int sph_sim_gradients_cholesky(int dim, double A[3][3], double shift, double L[3][3]);
 void sph_sim_gradients_solve(int dim, double L[3][3], double x[3]);
 
 /* Positions, and masses in the slot of V. */
@@ -60,6 +61,15 @@ void sph_sim_pairs_clear(sph_sim *sim, int g, int sums);
 /* Runs one loop over all target blocks of (target <- source). */
 void sph_sim_pairs_loop(sph_sim *sim, sph_pair_function *loop, int target, int source,
                         const void *constants);
+/* The same over other records of both, of that stride; NULL: their own. */
+void sph_sim_pairs_loop_records(sph_sim *sim, sph_pair_function *loop, int target, int source,
+                                const double *record, const double *source_record, long stride,
+                                const void *constants);
+
+/* The modifier that shifts between steps. */
+int sph_sim_shift_step(void *ctx, sph_sim *sim);
+/* What shifts a group: dv = -2 h speed grad C, about [m/s]; 0: nothing. */
+double sph_sim_shift_speed(const sph_sim *sim, const sph_group *group);
 
 /* phi of all fluids, or of all walls, for the row of that name. */
 void sph_sim_material_phi(sph_evaluation *e, int walls);
@@ -91,8 +101,6 @@ fluid_constants sph_sim_drag_constants(const sph_sim *sim, int target, int sourc
 int sph_sim_interaction_prepare(sph_sim *sim, sph_part *part);
 /* Before the run: masses that make the lattice sum the reference density. */
 void sph_sim_density_calibrate(sph_sim *sim);
-/* Does a density reset fit the terms? */
-int sph_sim_reset_check(sph_sim *sim);
 /* The simulation asks for a smaller step, for this reason. */
 int sph_sim_admit_retry(sph_sim *sim, const char *format, ...) SPH_PRINTF(2, 3);
 

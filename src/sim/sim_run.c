@@ -9,6 +9,7 @@
 #include "clock.h"
 #include "sim_event.h"
 #include "sim_keep.h"
+#include "sim_mirror.h"
 #include "sim_parts.h"
 #include "sim_prepare.h"
 #include "sim_rhs.h"
@@ -176,6 +177,7 @@ int sph_sim_run_step(sph_sim *sim, double t_stop, int framed)
   if (!status && framed) status = frames_of_steps(sim);
   if (!status && cut) status = sph_sim_event_act(sim);
   if (!status) status = sph_sim_modifier_run(sim);
+  if (!status) sph_sim_mirror_bounce(sim);
   return status;
 }
 

@@ -10,6 +10,7 @@
 #include "memory.h"
 #include "sim_transposed.h"
 #include "tangent_loops.h"
+#include "term_part.h"
 #include "wall_pair.h"
 
 enum { PARALLEL_MIN = 1024, CHUNK = 256 };
@@ -54,15 +55,29 @@ static int make_differences(sph_tangent *t)
   return sim->error.status;
 }
 
+int sph_sim_tangent_fit(sph_sim *sim)
+{
+  for (int g = 0; g < sim->groups; g++)
+    if (sim->group[g]->model != SPH_MODEL_ADAMI)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "derivatives of f know adami walls alone; wall %s has %s: images and "
+                          "densities of walls are no part of them yet",
+                          sim->group[g]->name, sim->group[g]->boundary.name);
+  return SPH_OK;
+}
+
 sph_tangent *sph_sim_tangent_get(sph_sim *sim)
 {
   if (sim->error.status) return NULL;
   if (sim->tangent) return sim->tangent;
-  if (sim->loop_terms & SPH_CORRECTED) {
+  if (sim->part[SPH_WHOLE].shift) {
     sph_sim_fail(sim, SPH_ERR_ARGUMENT,
-                 "no derivatives of terms whose gradients are corrected: right is correction none");
+                 "no derivatives of a right-hand side with %s: it jumps where particles come to a "
+                 "free surface, and its passes have none; right is a simulation without the term",
+                 sph_term_part_named(sim->loop_terms & SPH_SHIFTS));
     return NULL;
   }
+  if (sph_sim_tangent_fit(sim)) return NULL;
   sph_tangent *t = SPH_NEW(sph_tangent, 1, "a tangent", &sim->error);
   if (!t) return NULL;
   t->sim = sim;

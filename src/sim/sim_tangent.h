@@ -50,6 +50,8 @@ typedef struct sph_tangent {
 
 /* The workspace of a simulation, made at its first use.  NULL: recorded. */
 sph_tangent *sph_sim_tangent_get(sph_sim *sim);
+/* Are there derivatives with these walls?  Else that is told. */
+int sph_sim_tangent_fit(sph_sim *sim);
 void sph_sim_tangent_free(sph_tangent *tangent); /* NULL is fine */
 
 /* out[length] = (df/dy) s + df/dtheta at (t, y): arrays as the entries of the ODE vector, padding

@@ -1,14 +1,22 @@
-/* Phase walls: prescribed motion; then p, rho and v of Adami walls from the fluid (Adami, Hu &
- * Adams 2012).
+/* Phase walls: prescribed motion; then p, rho and v of the three models.  Mirrors: sim_mirror.c.
  *
+ * Adami, Hu & Adams (2012), from the fluid:
  *   p_w = [sum p_f W + (g - a_w) . sum rho_f r_wf W]/sum W,
  *   rho_w from p_w by the inverse equation of state,  m_w = rho_w dx^d,
  *   v_w = 2 v_prescribed - sum v_f W/sum W in viscous terms (no slip),
- *   T_w = 2 T_prescribed - sum T_f W/sum W in conduction (isothermal).   No fluid near: p_w = 0. */
+ *   T_w = 2 T_prescribed - sum T_f W/sum W in conduction (isothermal).   No fluid near: p_w = 0.
+ *
+ * Dynamic boundary particles (Crespo, Gomez-Gesteira & Dalrymple 2007): rho_w is integrated, m_w
+ * stays,
+ *   d rho_w/dt = continuity with the fluid, p_w = p(rho_w), rho_w >= rho0.
+ * Here the last is part of f: no pressure is less than p(rho0), and rho_w at rho0 does not fall. */
 #include <math.h>
 
-#include "sim_rhs.h"
+#include "fluid_loops.h"
+#include "sim_mirror.h"
 #include "wall_loops.h"
+
+enum { PARALLEL_MIN = 512 };
 
 static void motion(const sph_group *wall, double t, double displacement[3], double velocity[3],
                    double acceleration[3])
@@ -23,7 +31,8 @@ int sph_sim_walls_move(sph_evaluation *e)
   const sph_sim *sim = e->sim;
   for (int g = 0; g < sim->groups && e->part->lists; g++) {
     const sph_group *wall = sim->group[g];
-    if (!wall->wall || !wall->boundary.motion) continue;
+    if (wall->wall && wall->model == SPH_MODEL_MIRROR) sph_sim_mirror_place(e, g);
+    if (!wall->wall || wall->model == SPH_MODEL_MIRROR || !wall->boundary.motion) continue;
     double displacement[3], velocity[3], acceleration[3];
     motion(wall, e->t, displacement, velocity, acceleration);
     for (int d = 0; d < sim->dim; d++)
@@ -82,6 +91,56 @@ void sph_sim_walls_finish(const sph_evaluation *e, int g)
   for (long s = 0; s < wall->n; s++) fill(e, wall, s, order[s], g_minus_a);
 }
 
+/* ---- dynamic boundary particles ---- */
+
+/* Below it there is no pressure; 0: walls that may pull. */
+static double least_density(const sph_group *wall)
+{
+  if (wall->boundary.tension) return 0;
+  return wall->eos.rho0 > 0 ? wall->eos.rho0 : wall->rho0;
+}
+
+/* p and c of wall g; a part of f that knows no pressure has none here either. */
+static void dynamic(const sph_evaluation *e, int g)
+{
+  const sph_group *wall = e->sim->group[g];
+  const sph_view *view = &e->view[g];
+  const double least = least_density(wall);
+#pragma omp parallel for num_threads(e->sim->threads) schedule(static) if (view->n > PARALLEL_MIN)
+  for (long i = 0; i < view->n; i++) {
+    const double rho = fmax(view->rho[i], least);
+    view->p[i] = view->c[i] = 0;
+    if (e->part->eos) wall->eos.pressure(&wall->eos, 1, &rho, NULL, &view->p[i], &view->c[i]);
+  }
+}
+
+void sph_sim_walls_rates(sph_evaluation *e, int g)
+{
+  sph_sim *sim = e->sim;
+  const sph_group *wall = sim->group[g];
+  const sph_view *view = &e->view[g];
+  const double least = least_density(wall);
+  const int acts = e->part->pairs && (e->part->rates & SPH_CONTINUITY);
+  const int *order = sph_neighbors_order(sim->neighbors, g);
+  if (!view->drho) return;
+  if (acts) sph_sim_pairs_clear(sim, g, SPH_FLUID_SUMS_ALL);
+  for (int f = 0; acts && f < sim->groups; f++) {
+    fluid_constants k = sim->constants;
+    k.terms &= SPH_CONTINUITY | SPH_FORM_C2 | SPH_FORM_PHI | SPH_THERMAL;
+    if (!sim->group[f]->wall && !sim->group[f]->eos.dust)
+      sph_sim_pairs_loop(sim, sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, k.terms), g, f,
+                         &k);
+  }
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (view->n > PARALLEL_MIN)
+  for (long s = 0; s < view->n; s++) {
+    const long i = order ? order[s] : s;
+    double rate = acts ? sim->F_scale * sim->sorted[g].sum[SPH_SUM_COMPRESSION][s] : 0;
+    if (sim->loop_terms & SPH_FORM_C2) rate *= view->rho[i];
+    if (sim->sorted[g].phi) rate *= sim->sorted[g].phi[i];
+    view->drho[i] = view->rho[i] <= least && rate < 0 ? 0 : rate;
+  }
+}
+
 int sph_sim_walls_fill(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
@@ -92,6 +151,9 @@ int sph_sim_walls_fill(sph_evaluation *e)
   sph_sim_pairs_pack(e, 0);
   for (int g = 0; g < sim->groups && e->part->walls; g++) {
     if (!sim->group[g]->wall) continue;
+    if (sim->group[g]->model == SPH_MODEL_MIRROR) sph_sim_mirror_fill(e, g);
+    if (sim->group[g]->model == SPH_MODEL_DBC) dynamic(e, g);
+    if (sim->group[g]->model != SPH_MODEL_ADAMI) continue;
     sph_sim_pairs_pack_positions(e, g);
     sph_sim_pairs_clear(sim, g, SPH_WALL_SUMS);
     for (int f = 0; f < sim->groups; f++)

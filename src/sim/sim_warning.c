@@ -1,20 +1,12 @@
 /* What a simulation has that does nothing, or lacks that most have: told, not refused. */
+#include "sim_warning.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "sim_data.h"
-
-/* Warning number `wanted` of those that are found one after another. */
-typedef struct finder {
-  int wanted, found;
-  char *text;
-  size_t size;
-} finder;
-
-static void found(finder *f, const char *format, ...) SPH_PRINTF(2, 3);
-static void found(finder *f, const char *format, ...)
+void sph_sim_warning_found(sph_finder *f, const char *format, ...)
 {
   va_list arguments;
   if (f->found++ != f->wanted || !f->size) return;
@@ -23,57 +15,64 @@ static void found(finder *f, const char *format, ...)
   va_end(arguments);
 }
 
-static void find_in_terms(finder *f, const sph_term_set *terms)
+static void find_in_terms(sph_finder *f, const sph_term_set *terms)
 {
   const double *g = terms->g;
   if (!(terms->bits & SPH_CONTINUITY) && !terms->summed && !terms->pairs)
-    found(f, "nothing changes the density: no continuity, no summation");
-  if (!(terms->bits & SPH_PRESSURE_FORCE) && !terms->pairs) found(f, "no pressure force");
+    sph_sim_warning_found(f, "nothing changes the density: no continuity, no summation");
+  if (!(terms->bits & SPH_PRESSURE_FORCE) && !terms->pairs)
+    sph_sim_warning_found(f, "no pressure force");
   if ((terms->bits & SPH_FOURTAKAS) && g[0] == 0 && g[1] == 0 && g[2] == 0)
-    found(f, "delta fourtakas without gravity is molteni");
+    sph_sim_warning_found(f, "delta fourtakas without gravity is molteni");
   if ((terms->bits & SPH_XSPH) && terms->epsilon == 0)
-    found(f, "xsph with epsilon = 0 does nothing");
+    sph_sim_warning_found(f, "xsph with epsilon = 0 does nothing");
+  if ((terms->bits & SPH_SHIFTING) && terms->shift.strength == 0)
+    sph_sim_warning_found(f, "shifting with strength = 0 does nothing");
+  if ((terms->bits & SPH_STRESS) && terms->stress_alpha == 0 && terms->stress_beta == 0)
+    sph_sim_warning_found(f, "stress-artificial with alpha = beta = 0 does nothing");
   if ((terms->bits & SPH_DRAG) && terms->drag_K == 0 && terms->drag_rate == 0)
-    found(f, "drag with K = 0 does nothing");
+    sph_sim_warning_found(f, "drag with K = 0 does nothing");
 }
 
-static void find_in_wall(finder *f, const sph_sim *sim, const sph_group *wall)
+static void find_in_wall(sph_finder *f, const sph_sim *sim, const sph_group *wall)
 {
   const unsigned bits = sim->terms.bits;
   if (wall->boundary.temperature > 0 && !(bits & SPH_CONDUCTION))
-    found(f, "wall %s has a temperature, but there is no conduction", wall->name);
+    sph_sim_warning_found(f, "wall %s has a temperature, but there is no conduction", wall->name);
   if (wall->boundary.no_slip && !(bits & SPH_VISCOUS) && !sim->terms.pairs)
-    found(f, "wall %s is no-slip, but there is no viscous term to feel it", wall->name);
+    sph_sim_warning_found(f, "wall %s is no-slip, but there is no viscous term to feel it",
+                          wall->name);
   if (wall->viscosity > 0)
-    found(f, "wall %s has a viscosity, which is not used: fluids take their own", wall->name);
+    sph_sim_warning_found(f, "wall %s has a viscosity, which is not used: fluids take their own",
+                          wall->name);
 }
 
-static void find_in_dust(finder *f, const sph_sim *sim, const sph_group *dust)
+static void find_in_dust(sph_finder *f, const sph_sim *sim, const sph_group *dust)
 {
   int walls = 0;
   for (int g = 0; g < sim->groups; g++) walls += sim->group[g]->wall;
   if (!(sim->terms.bits & SPH_DRAG))
-    found(f, "%s is dust, but there is no drag: nothing acts on it", dust->name);
-  if (walls) found(f, "%s is dust: walls do not hold it", dust->name);
+    sph_sim_warning_found(f, "%s is dust, but there is no drag: nothing acts on it", dust->name);
+  if (walls) sph_sim_warning_found(f, "%s is dust: walls do not hold it", dust->name);
   if (dust->viscosity > 0 || dust->conductivity > 0)
-    found(f, "%s is dust: its viscosity and conductivity are not used", dust->name);
+    sph_sim_warning_found(f, "%s is dust: its viscosity and conductivity are not used", dust->name);
 }
 
-static void find_in_fluid(finder *f, const sph_sim *sim, const sph_group *fluid)
+static void find_in_fluid(sph_finder *f, const sph_sim *sim, const sph_group *fluid)
 {
   const unsigned bits = sim->terms.bits, laminar = SPH_MORRIS | SPH_MCG;
   if (fluid->viscosity > 0 && !(bits & laminar))
-    found(f, "%s has a viscosity, but there is no viscosity-laminar", fluid->name);
+    sph_sim_warning_found(f, "%s has a viscosity, but there is no viscosity-laminar", fluid->name);
   if (fluid->viscosity == 0 && (bits & laminar))
-    found(f, "%s has no viscosity beside viscosity-laminar", fluid->name);
+    sph_sim_warning_found(f, "%s has no viscosity beside viscosity-laminar", fluid->name);
   if (fluid->conductivity > 0 && !(bits & SPH_CONDUCTION))
-    found(f, "%s has a conductivity, but there is no conduction", fluid->name);
+    sph_sim_warning_found(f, "%s has a conductivity, but there is no conduction", fluid->name);
   if (fluid->conductivity == 0 && (bits & SPH_CONDUCTION))
-    found(f, "%s has no conductivity beside conduction", fluid->name);
+    sph_sim_warning_found(f, "%s has no conductivity beside conduction", fluid->name);
 }
 
 /* Steps that explicit terms make far shorter than sound does. */
-static void find_in_limits(finder *f, const sph_sim *sim)
+static void find_in_limits(sph_finder *f, const sph_sim *sim)
 {
   static const struct {
     int bound;
@@ -85,16 +84,27 @@ static void find_in_limits(finder *f, const sph_sim *sim)
   for (size_t k = 0; sim->prepared && !stabilised && k < sizeof row / sizeof *row; k++) {
     const double ratio = sim->limit[SPH_BOUND_CFL] / sim->limit[row[k].bound];
     if (ratio > 10 && ratio < INFINITY)
-      found(f,
-            "%s bounds steps to 1/%.0f of h/c: integrator imex:ark324l2sa-4-2-3 takes it "
-            "implicitly",
-            row[k].term, ratio);
+      sph_sim_warning_found(
+          f,
+          "%s bounds steps to 1/%.0f of h/c: integrator imex:ark324l2sa-4-2-3 takes it "
+          "implicitly",
+          row[k].term, ratio);
   }
+}
+
+static void find_in_surface(sph_finder *f, const sph_sim *sim)
+{
+  if (sim->prepared && sim->surface > 0 && !sim->terms.shift.surface)
+    sph_sim_warning_found(
+        f,
+        "%ld particles are at a free surface, which shifting with surface = 0 does not know: "
+        "it would spread",
+        sim->surface);
 }
 
 int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size)
 {
-  finder f = {k, 0, text, text ? size : 0};
+  sph_finder f = {k, 0, text, text ? size : 0};
   if (!sim || k < 0) return 0;
   find_in_terms(&f, &sim->terms);
   for (int g = 0; g < sim->groups; g++)
@@ -105,5 +115,8 @@ int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size)
     else
       find_in_fluid(&f, sim, sim->group[g]);
   find_in_limits(&f, sim);
+  find_in_surface(&f, sim);
+  if (sim->prepared) sph_sim_warning_speeds(&f, sim);
+  if (sim->prepared) sph_sim_warning_resolution(&f, sim);
   return f.found > k;
 }

@@ -81,6 +81,15 @@ static void set_scales(sph_sim *sim, int g, const sph_view *view, double V_least
   }
 }
 
+/* Density of a wall: as of the first fluid. */
+static void set_wall(sph_sim *sim, int g)
+{
+  double *scale = &sim->scale[g][SPH_DENSITY];
+  for (int f = sim->groups - 1; f >= 0; f--)
+    if (!sim->group[f]->wall && !sim->group[f]->eos.dust) *scale = sim->scale[f][SPH_DENSITY];
+  if (sim->set_scale[g][SPH_DENSITY] > 0) *scale = sim->set_scale[g][SPH_DENSITY];
+}
+
 int sph_sim_weights_check(sph_sim *sim)
 {
   for (int set = 0; set <= SPH_SETS_MAX; set++)
@@ -127,6 +136,8 @@ void sph_sim_weights_scales(sph_sim *sim)
       set_scales(sim, g, &view, dust ? V_most : 0);
       V_most = fmax(V_most, sim->scale[g][SPH_VELOCITY]);
     }
+  for (int g = 0; g < sim->groups; g++)
+    if (sim->group[g]->wall) set_wall(sim, g);
 }
 
 int sph_sim_weights(N_Vector y, N_Vector weight, void *ctx)

@@ -23,7 +23,7 @@ int sph_group_data_energy(const struct sph_group *group)
 
 int sph_group_data_integrated(const struct sph_group *group, int field)
 {
-  if (group->wall) return 0;
+  if (group->wall) return group->model == SPH_MODEL_DBC && field == SPH_DENSITY;
   if (field >= SPH_SCALAR) return field - SPH_SCALAR < group->scalars;
   if (field >= SPH_ENERGY && field <= SPH_TEMPERATURE) return field == sph_group_data_energy(group);
   if (field == SPH_DENSITY) return !group->summed;
@@ -57,12 +57,15 @@ int sph_group_data_reserve(struct sph_group *group, long count, sph_error *error
       sph_memory_grow((void **)&group->id, old, capacity, sizeof(long), "particle numbers", error);
   for (int field = 0; field < SPH_FIELDS; field++)
     for (int c = 0; status == SPH_OK && c < sph_group_data_components(group->dim, field); c++)
-      if (always(group, field))
+      if (always(group, field) || group->own[field][c])
         status = sph_memory_grow((void **)&group->own[field][c], old, capacity, sizeof(double),
                                  "a field", error);
   for (int d = 0; group->wall && status == SPH_OK && d < group->dim; d++)
     status = sph_memory_grow((void **)&group->start[d], old, capacity, sizeof(double),
                              "wall positions", error);
+  if (group->model == SPH_MODEL_MIRROR && status == SPH_OK)
+    status = sph_memory_grow((void **)&group->ghost, old, capacity, sizeof(sph_ghost),
+                             "mirror images", error);
   if (status == SPH_OK) group->capacity = (long)capacity;
   return status;
 }
@@ -77,6 +80,7 @@ void sph_group_data_free(struct sph_group *group)
     sph_memory_free(group->start[c]);
   }
   sph_memory_free(group->id);
+  sph_memory_free(group->ghost);
   sph_memory_free(group);
 }
 
@@ -150,6 +154,7 @@ sph_view sph_group_data_view(const struct sph_group *group, const double *y, dou
     view.ds[k] = rate(group, ydot, SPH_SCALAR + k, 0);
   }
   int energy = sph_group_data_energy(group);
+  if (group->model == SPH_MODEL_MIRROR) view.u = group->own[SPH_ENERGY][0];
   if (energy < 0) return view;
   view.u = sph_group_data_component(group, y, SPH_ENERGY, 0);
   view.energy = sph_group_data_component(group, y, energy, 0);

@@ -26,6 +26,19 @@ enum sph_energy {
   SPH_ENERGY_TEMPERATURE
 };
 
+/* What a wall does, in the order of sph_boundary_name. */
+enum sph_wall_model { SPH_MODEL_ADAMI, SPH_MODEL_DBC, SPH_MODEL_MIRROR };
+
+/* An image of a fluid particle: reflected in planes, one after another, each of a mirror group. */
+typedef struct sph_ghost {
+  long parent; /* its number in its group */
+  int group;   /* index of that group */
+  int planes;
+  struct {
+    unsigned char group, plane; /* index of the mirror group, number in its boundary */
+  } in[3];
+} sph_ghost;
+
 enum { SPH_NAME_MAX = 64 };
 
 struct sph_group {
@@ -36,13 +49,18 @@ struct sph_group {
   int dim;
   long n, capacity; /* capacity is a multiple of 8 */
   long *id;         /* [capacity] */
-  double *start[3]; /* walls: positions at displacement zero, [capacity]; NULL for fluids */
+  /* Walls: positions at displacement zero; ghosts of a mirror: the velocity that viscous terms see;
+   * [capacity]; NULL for fluids. */
+  double *start[3];
   /* A component lives either here, [capacity], or in the ODE vector at offset >= 0. */
   double *own[SPH_FIELDS][3];
   long offset[SPH_FIELDS][3];
   sph_eos eos; /* eos.name points to eos_name */
   char eos_name[SPH_NAME_MAX];
-  sph_boundary boundary; /* walls; its name points to a built-in one */
+  sph_boundary boundary; /* walls; its name points to a built-in one; normals have length 1 */
+  enum sph_wall_model model;
+  sph_ghost *ghost; /* of a mirror, [capacity] */
+  double placed[3]; /* displacement of a mirror at the last list build [m] */
   int has_eos, has_boundary;
   double viscosity;    /* dynamic [Pa s] */
   double conductivity; /* of heat [W/(m K)] */

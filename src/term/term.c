@@ -28,16 +28,18 @@ static const struct {
               "rho_j - rho_i - rho^H_ij (fourtakas)"},
     {"drag", "a_i = -d sum m_j K/(rho_i rho_j) D_ij (v_ij.e) e between dust and fluids, "
              "D = q^2 W/(d sigma_k^2), e = r_ij/r; K constant or rho_dust/t_s"},
+    {"shifting", "d r_i/dt = v_i + dv_i, dv_i = -2 s h U sum V_j grad W (fick) or "
+                 "-2 s h U sum V_j (1 + R (W/W(dx))^4) grad W (delta-plus); "
+                 "density and velocity gain dv_i . grad"},
+    {"transport-velocity", "d r_i/dt = v_i + dv_i, dv_i = -tau p_b/m_i sum (V_i^2 + V_j^2) grad W; "
+                           "a_i += 1/m_i sum (V_i^2 + V_j^2)/2 (A_i + A_j).grad W, A = rho v dv"},
+    {"stress-artificial", "a_i = -sum m_j R_ij (W/W(dx))^4 grad W, R_ij = alpha (|p_i|/rho_i^2 + "
+                          "|p_j|/rho_j^2) of negative p, beta (p_i/rho_i^2 + p_j/rho_j^2) of two "
+                          "positive ones"},
     {"gravity", "a_i = g"},
     {"harmonic", "a_i = -omega^2 x_i"},
 };
 enum { TERMS = sizeof terms / sizeof *terms };
-
-sph_term sph_term_corrected(sph_term term, const char *correction)
-{
-  term.correction = correction;
-  return term;
-}
 
 const char *sph_term_name(int k) { return k >= 0 && k < TERMS ? terms[k].name : NULL; }
 

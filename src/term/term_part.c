@@ -23,6 +23,9 @@ static const struct {
     {"delta", SPH_DIFFUSION, MAY},
     {"drag", SPH_DRAG, DEFAULT},
     {"gravity", SPH_UNIFORM, NEVER},
+    {"shifting", SPH_SHIFTING, NEVER},
+    {"transport-velocity", SPH_TRANSPORT, NEVER},
+    {"stress-artificial", SPH_STRESS, NEVER},
 };
 enum { BUILT_IN = sizeof built_in / sizeof *built_in };
 
@@ -78,12 +81,6 @@ static void assign(sph_term_set *set, unsigned bits, int part)
   if (part == SPH_TERM_FAST) set->fast |= bits;
 }
 
-/* Are its gradients corrected? */
-static int corrected(const sph_term_set *set, int k)
-{
-  return (built_in[k].bits & (SPH_MORRIS | SPH_MCG)) && (set->bits & SPH_LAMINAR_CORRECTED);
-}
-
 /* As if no part had been set. */
 static int forget(sph_term_set *set)
 {
@@ -129,11 +126,6 @@ int sph_term_part_set(sph_term_set *set, const char *term, const char *part, sph
     if (strcmp(term, built_in[k].name) || !(bits_of(set) & built_in[k].bits)) continue;
     if (number == SPH_TERM_IMPLICIT && built_in[k].implicit == NEVER)
       return not_implicit(term, error);
-    if (number == SPH_TERM_IMPLICIT && corrected(set, k))
-      return sph_error_set(error, SPH_ERR_ARGUMENT,
-                           "%s of a correction cannot be implicit: its matrix knows no gradient "
-                           "matrices; right is correction none, or explicit",
-                           term);
     assign(set, built_in[k].bits, number);
     found = 1;
   }
@@ -154,7 +146,7 @@ int sph_term_part_set(sph_term_set *set, const char *term, const char *part, sph
 int sph_term_part_default(sph_term_set *set, sph_error *error)
 {
   for (int k = 0; !set->parted && k < BUILT_IN; k++)
-    if (built_in[k].implicit == DEFAULT && !corrected(set, k))
+    if (built_in[k].implicit == DEFAULT)
       assign(set, bits_of(set) & built_in[k].bits, SPH_TERM_IMPLICIT);
   return sph_term_part_first(set, SPH_TERM_IMPLICIT) ? SPH_OK : not_implicit("", error);
 }

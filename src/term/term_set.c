@@ -36,22 +36,6 @@ static int add_form(sph_term_set *set, unsigned bit, const sph_term *term, const
   return claim(set, bit, term->name, error);
 }
 
-/* How its gradients are corrected; mean 0: that is not known of this term. */
-static int add_correction(sph_term_set *set, const sph_term *term, unsigned one_sided,
-                          unsigned mean, sph_error *error)
-{
-  const char *correction = term->correction ? term->correction : "none";
-  if (!strcmp(correction, "one-sided"))
-    set->bits |= one_sided;
-  else if (mean && !strcmp(correction, "mean"))
-    set->bits |= mean;
-  else if (strcmp(correction, "none") != 0)
-    return sph_error_set(error, SPH_ERR_ARGUMENT,
-                         "term %s: correction \"%.60s\"; known: none, one-sided%s", term->name,
-                         correction, mean ? ", mean" : "");
-  return SPH_OK;
-}
-
 static int is_finite(const sph_term *term, const char *name, double value, sph_error *error)
 {
   if (isfinite(value)) return SPH_OK;
@@ -63,7 +47,6 @@ static int add_continuity(sph_term_set *set, const sph_term *term, sph_error *er
 {
   int status = is_finite(term, "exponent", term->exponent, error);
   if (!status) status = add_form(set, SPH_CONTINUITY, term, "c1", error);
-  if (!status) status = add_correction(set, term, SPH_CONTINUITY_CORRECTED, 0, error);
   if (!status && set->summed)
     status = sph_error_set(error, SPH_ERR_ARGUMENT, "term continuity: density is summed already");
   if (!status && set->form_phi & SPH_CONTINUITY) {
@@ -123,9 +106,7 @@ static int add_laminar(sph_term_set *set, const sph_term *term, sph_error *error
                          "term viscosity-laminar: form \"%s\"; known: morris, mcg", form);
   if (set->bits & (SPH_MORRIS | SPH_MCG))
     return sph_error_set(error, SPH_ERR_ARGUMENT, "term viscosity-laminar: added twice");
-  int status = claim(set, bit, term->name, error);
-  return status ? status
-                : add_correction(set, term, SPH_LAMINAR_ONE_SIDED, SPH_LAMINAR_MEAN, error);
+  return claim(set, bit, term->name, error);
 }
 
 static int add_xsph(sph_term_set *set, const sph_term *term, sph_error *error)
@@ -138,11 +119,59 @@ static int add_xsph(sph_term_set *set, const sph_term *term, sph_error *error)
   return claim(set, SPH_XSPH, term->name, error);
 }
 
+static int add_stress(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  int status = not_below_zero(term->name, "alpha", term->alpha, error);
+  if (!status) status = not_below_zero(term->name, "beta", term->beta, error);
+  if (!status) status = claim(set, SPH_STRESS, term->name, error);
+  set->stress_alpha = term->alpha;
+  set->stress_beta = term->beta;
+  return status;
+}
+
+static int claim_shift(sph_term_set *set, unsigned bit, const sph_term *term, sph_error *error)
+{
+  if (set->bits & SPH_SHIFTS & ~bit)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term %s: particles are moved by %s already; right is one of them",
+                         term->name, set->bits & SPH_SHIFTING ? "shifting" : "transport-velocity");
+  set->shift = *term;
+  set->shift.name = set->shift.form = NULL;
+  return claim(set, bit, term->name, error);
+}
+
+static int add_shifting(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  const char *form = term->form ? term->form : "delta-plus";
+  const int fick = !strcmp(form, "fick");
+  if (!fick && strcmp(form, "delta-plus"))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term shifting: form \"%.60s\"; known: delta-plus, fick", form);
+  if (!(term->speed > 0 && isfinite(term->speed)))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term shifting: speed = %g m/s; right is > 0 and finite", term->speed);
+  int status = not_below_zero(term->name, "strength", term->strength, error);
+  if (!status) status = not_below_zero(term->name, "crowding", term->crowding, error);
+  if (!status && term->steps < 0)
+    status = sph_error_set(error, SPH_ERR_ARGUMENT, "term shifting: steps = %ld; right is >= 0",
+                           term->steps);
+  if (!status) status = claim_shift(set, SPH_SHIFTING, term, error);
+  if (fick) set->shift.crowding = 0;
+  return status;
+}
+
+static int add_transport(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  int status = not_below_zero(term->name, "background", term->background, error);
+  if (!status) status = not_below_zero(term->name, "time", term->time, error);
+  if (!status) status = claim_shift(set, SPH_TRANSPORT, term, error);
+  set->shift.steps = 0;
+  return status;
+}
+
 static int add_pressure(sph_term_set *set, const sph_term *term, sph_error *error)
 {
-  int status = add_form(set, SPH_PRESSURE_FORCE, term, "s", error);
-  return status ? status
-                : add_correction(set, term, SPH_PRESSURE_ONE_SIDED, SPH_PRESSURE_MEAN, error);
+  return add_form(set, SPH_PRESSURE_FORCE, term, "s", error);
 }
 
 static int add_conduction(sph_term_set *set, const sph_term *term, sph_error *error)
@@ -279,7 +308,7 @@ static int add_called(sph_term_set *set, const sph_term *term, sph_error *error)
   kept->term.reads = term->reads ? kept->reads : NULL;
   snprintf(kept->adds, sizeof kept->adds, "%s", term->adds ? term->adds : "");
   kept->term.adds = term->adds ? kept->adds : NULL;
-  kept->term.form = kept->term.correction = NULL;
+  kept->term.form = NULL;
   sph_term_part_changes(term, &kept->changes, error);
   kept->term.implicit = NULL; /* as read in changes */
   kept->scalar = term->scalar.name ? keep_scalar(set, &term->scalar) : -1;
@@ -310,18 +339,12 @@ static int add(sph_term_set *set, const sph_term *term, sph_error *error)
       {"delta", add_delta},
       {"drag", add_drag},
       {"gravity", add_gravity},
+      {"shifting", add_shifting},
+      {"transport-velocity", add_transport},
+      {"stress-artificial", add_stress},
   };
-  static const char *const corrected[] = {"continuity", "pressure", "viscosity-laminar"};
-  int can = 0;
   if (!term->name || !*term->name)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "a term without a name");
-  for (int k = 0; k < 3; k++) can |= !strcmp(term->name, corrected[k]);
-  if (term->correction && strcmp(term->correction, "none") != 0 &&
-      (!can || term->body || term->pair))
-    return sph_error_set(error, SPH_ERR_ARGUMENT,
-                         "term %s: correction \"%.60s\"; only continuity, pressure and "
-                         "viscosity-laminar have one",
-                         term->name, term->correction);
   for (size_t k = 0; !term->body && !term->pair && k < sizeof built_in / sizeof *built_in; k++)
     if (!strcmp(term->name, built_in[k].name)) return built_in[k].add(set, term, error);
   return add_called(set, term, error);
@@ -398,26 +421,6 @@ int sph_term_set_change(sph_term_set *set, const sph_term *term, sph_error *erro
                        name);
 }
 
-/* Continuity and pressure force are partners in their corrections, too. */
-static int check_corrections(const sph_term_set *set, sph_error *error)
-{
-  const unsigned bits = set->bits;
-  const int pressure = (bits & SPH_PRESSURE_FORCE) != 0, mean = (bits & SPH_PRESSURE_MEAN) != 0;
-  if (set->summed && mean)
-    return sph_error_set(error, SPH_ERR_ARGUMENT,
-                         "term pressure: correction mean belongs to continuity of correction "
-                         "one-sided; beside summation right is none or one-sided");
-  if (pressure && !(bits & SPH_PRESSURE_ONE_SIDED) && (bits & SPH_CONTINUITY) &&
-      mean != ((bits & SPH_CONTINUITY_CORRECTED) != 0))
-    return sph_error_set(
-        error, SPH_ERR_ARGUMENT,
-        "continuity of correction %s and pressure of correction %s do not conserve "
-        "energy: use one-sided with mean, none with none (pressure of correction "
-        "one-sided conserves none, and goes with both)",
-        bits & SPH_CONTINUITY_CORRECTED ? "one-sided" : "none", mean ? "mean" : "none");
-  return SPH_OK;
-}
-
 int sph_term_set_check(const sph_term_set *set, sph_error *error)
 {
   int forms = (set->form_c2 != 0) + (set->form_c1 != 0) + (set->form_phi != 0);
@@ -432,7 +435,7 @@ int sph_term_set_check(const sph_term_set *set, sph_error *error)
     return sph_error_set(error, SPH_ERR_ARGUMENT,
                          "term delta diffuses a density that is integrated; summation has none: "
                          "leave one of them out");
-  return check_corrections(set, error);
+  return SPH_OK;
 }
 
 void sph_term_set_free(sph_term_set *set)

@@ -9,8 +9,14 @@
 enum { SPH_CALLED_TERMS_MAX = 32, SPH_TERM_NAME_MAX = 64, SPH_TERM_READS_MAX = 256 };
 
 /* Beside the bits of the fused loops, where terms are told apart: the uniform body force; drag,
- * which has a loop of its own. */
-enum { SPH_UNIFORM = 1 << 30, SPH_DRAG = 1 << 29 };
+ * which has a loop of its own, as have what move particles besides their velocity. */
+enum {
+  SPH_UNIFORM = 1 << 30,
+  SPH_DRAG = 1 << 29,
+  SPH_SHIFTING = 1 << 28,
+  SPH_TRANSPORT = 1 << 27,
+  SPH_SHIFTS = SPH_SHIFTING | SPH_TRANSPORT
+};
 
 /* What an implicit term of the user's own changes. */
 enum sph_term_changes { SPH_CHANGES_VELOCITY = 1, SPH_CHANGES_ENERGY = 2, SPH_CHANGES_SCALAR = 4 };
@@ -43,6 +49,8 @@ typedef struct sph_term_set {
   double alpha_u;                    /* artificial conductivity */
   double delta;                      /* density diffusion */
   double epsilon;                    /* XSPH */
+  double stress_alpha, stress_beta;  /* artificial stress */
+  sph_term shift;                    /* shifting or transport-velocity: its numbers */
   double drag_K, drag_rate;          /* drag_K + drag_rate rho_dust [kg/m^3/s], [1/s] */
   sph_term phi;                      /* of form phi: its exponent, phi, ctx; name NULL: none */
   double g[3];                       /* sum of the uniform body forces [m/s^2] */

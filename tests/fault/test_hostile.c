@@ -85,7 +85,7 @@ static void create(void **state)
   def = good, def.kernel = "gauss", refused_def(def, "gauss", "kernel");
   def = good, def.kernel = "gauss", refused_def(def, "wendland-c2", "kernel: the known ones");
   def = good, def.kernel = "", refused_def(def, "wendland-c2", "no kernel");
-  def = good, def.neighbors = "tree", refused_def(def, "tree", "neighbors");
+  def = good, def.search = "oak", refused_def(def, "oak", "search");
   def = good, def.isa = "sse9", refused_def(def, "sse9", "isa");
   def = good, def.threads = -1, refused_def(def, "-1", "threads");
   sph_sim *sim = sph_sim_create(NULL);
@@ -207,8 +207,19 @@ static void materials(void **state)
   refused_eos((sph_eos){.name = "mine"}, "mine", "one without functions");
 
   refused_boundary((sph_boundary){0}, "adami", "an empty boundary");
-  refused_boundary((sph_boundary){.name = "mirror"}, "mirror", "boundary");
-  refused_boundary((sph_boundary){.name = "mirror"}, "adami", "boundary: the known ones");
+  refused_boundary((sph_boundary){.name = "rubber"}, "rubber", "boundary");
+  refused_boundary((sph_boundary){.name = "rubber"}, "adami", "boundary: the known ones");
+  refused_boundary(sph_boundary_mirror(), "0 planes", "a mirror without planes");
+  sph_boundary mirror = sph_boundary_mirror();
+  sph_boundary_mirror_plane(&mirror, (double[]){0, 0}, (double[]){0, NAN}, 2);
+  refused_boundary(mirror, "normal", "a normal that is no number");
+  mirror = sph_boundary_mirror();
+  sph_boundary_mirror_box(&mirror, (double[]){0, 0}, (double[]){1, 1}, "north", 2);
+  refused_boundary(mirror, "sides of a box", "an open side that is none");
+  for (int k = 0; k < 9; k++)
+    sph_boundary_mirror_plane(&mirror, (double[]){0, 0}, (double[]){0, 1}, 2);
+  refused_boundary(mirror, "1 to 6", "too many planes");
+  sph_boundary_mirror_plane(NULL, NULL, NULL, 2), sph_boundary_mirror_box(NULL, NULL, NULL, "", 2);
 }
 
 static void refused_material(sph_material material, const char *word, const char *what)

@@ -39,7 +39,11 @@ static int run(sph_output output, sph_error *error)
 
 static int snapshots(sph_error *error)
 {
-  return run(sph_output_hdf5_def(&(sph_hdf5_def){directory, 1, "a: 1\n", "sphode run"}), error);
+  return run(sph_output_hdf5_def(&(sph_hdf5_def){.directory = directory,
+                                                 .interval = 1,
+                                                 .case_text = "a: 1\n",
+                                                 .command = "sphode run"}),
+             error);
 }
 
 static int series(sph_error *error)
@@ -94,6 +98,46 @@ static int probe(sph_error *error)
              error);
 }
 
+/* The snapshots that are there by then. */
+static int exported(const char *format, sph_error *error)
+{
+  int count = sph_export(&(sph_export_def){.path = directory,
+                                           .format = format,
+                                           .directory = directory,
+                                           .fields = "velocity density"},
+                         error);
+  return count < 0 ? count : SPH_OK;
+}
+
+static int csv(sph_error *error) { return exported("csv", error); }
+
+static int vtu(sph_error *error) { return exported("vtu", error); }
+
+static int gadget(sph_error *error) { return exported("gadget", error); }
+
+/* Into a simulation of its own. */
+static int imported(const char *name, sph_error *error)
+{
+  char path[240];
+  const long at = fail_at;
+  fail_at = 0;
+  sph_sim *own = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 0.1});
+  sph_group *group = sph_group_create(own, "water", "fluid");
+  snprintf(path, sizeof path, "%s/%s", directory, name);
+  fail_at = at, calls = 0;
+  sph_import(own, group, &(sph_import_def){.path = path, .rho0 = 1000});
+  fail_at = 0;
+  const int status = sph_sim_status(own);
+  if (status) sph_error_set(error, status, "%s", sph_sim_error(own));
+  sph_sim_free(own);
+  fail_at = at;
+  return status;
+}
+
+static int import_csv(sph_error *error) { return imported("snapshot_0000.csv", error); }
+
+static int import_hdf5(sph_error *error) { return imported("snapshot_0000.hdf", error); }
+
 static int summary(sph_error *error)
 {
   static const sph_comparison comparison = {.name = "x", .value = 1, .bar = 2, .pass = 1};
@@ -138,6 +182,11 @@ static void all(void **state)
 {
   (void)state;
   each_allocation_fails(snapshots, SPH_OK);
+  each_allocation_fails(csv, SPH_OK);
+  each_allocation_fails(vtu, SPH_OK);
+  each_allocation_fails(import_csv, SPH_OK);
+  each_allocation_fails(import_hdf5, SPH_OK);
+  each_allocation_fails(gadget, SPH_OK);
   each_allocation_fails(series, SPH_OK);
   each_allocation_fails(forces, SPH_OK);
   each_allocation_fails(probe, SPH_OK);
@@ -171,6 +220,19 @@ static int tear_down(void **state)
                                      "series.csv",
                                      "events.csv",
                                      "probe_p.csv",
+                                     "snapshot_0000.csv",
+                                     "snapshot_0001.csv",
+                                     "walls_0000.csv",
+                                     "walls_0001.csv",
+                                     "times.csv",
+                                     "snapshot_0000.vtu",
+                                     "snapshot_0001.vtu",
+                                     "walls_0000.vtu",
+                                     "walls_0001.vtu",
+                                     "snapshot.pvd",
+                                     "walls.pvd",
+                                     "snapshot_0000.hdf5",
+                                     "snapshot_0001.hdf5",
                                      "summary.json",
                                      "summary.txt",
                                      "a.gp",

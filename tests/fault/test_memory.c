@@ -80,6 +80,7 @@ typedef struct variant {
   const char *energy; /* NULL: default; with conduction, laminar viscosity, a heat source */
   int scalar;         /* a term with one, and with a pair function */
   int dust;           /* with drag */
+  const char *walls;  /* their model; NULL: adami */
 } variant;
 
 static void add_row(sph_sim *sim, const variant *v)
@@ -87,13 +88,10 @@ static void add_row(sph_sim *sim, const variant *v)
   static const char *const form[] = {"c2", "s", "phi"};
   sph_term continuity = sph_term_continuity_phi(0.5);
   continuity.phi = own_phi, continuity.ctx = &let_go[FIELD], continuity.free = count;
-  sph_sim_add_term(sim, v->row == C2       ? sph_term_corrected(sph_term_continuity(),
-                                                          v->thermal ? "one-sided" : NULL)
+  sph_sim_add_term(sim, v->row == C2       ? sph_term_continuity()
                         : v->row == SUMMED ? sph_term_summation(1)
                                            : continuity);
-  const int corrected = v->row == C2 && v->thermal;
-  sph_sim_add_term(sim, sph_term_corrected(sph_term_pressure_form(form[v->row]),
-                                           corrected ? "mean" : NULL));
+  sph_sim_add_term(sim, sph_term_pressure_form(form[v->row]));
 }
 
 static void add_heat(sph_sim *sim, sph_group *water, const variant *v)
@@ -105,6 +103,10 @@ static void add_heat(sph_sim *sim, sph_group *water, const variant *v)
   sph_sim_add_term(sim, sph_term_conduction());
   sph_sim_add_term(sim, sph_term_heat_source(power, NULL));
   sph_sim_add_term(sim, sph_term_xsph(0.2));
+  sph_sim_add_term(sim, sph_term_stress_artificial(0.2, 0.01));
+  sph_term shifting = sph_term_shifting(NULL, 1);
+  shifting.advection = 0, shifting.steps = v->periodic; /* a rate; where periodic between steps */
+  sph_sim_add_term(sim, shifting);
 }
 
 static void add_scalar(sph_sim *sim)
@@ -145,9 +147,8 @@ static int wrote(void *ctx, sph_sim *sim)
 }
 
 /* Events that look at all there is, one that happens, and what comes between steps. */
-static void add_moments(sph_sim *sim, const variant *v)
+static void add_moments(sph_sim *sim)
 {
-  if (v->row != SUMMED) sph_sim_reset_density(sim, v->thermal ? "shepard" : "mls", 2);
   sph_sim_add_event(sim, &(sph_event){.name = "own",
                                       .value = moment,
                                       .change = happens,
@@ -188,12 +189,17 @@ static int attach_and_run(sph_sim *sim, const variant *v)
 {
   sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1, 0.5}, 1000);
   sph_group *floor = sph_group_create(sim, "floor", "wall");
-  sph_group_add_layers(floor, (double[]){0, 0}, (double[]){1, 0.8}, v->periodic ? "x- x+ y+" : "y+",
-                       1000);
+  const double lo[] = {0, 0}, hi[] = {1, 0.8};
+  const char *open = v->periodic ? "x- x+ y+" : "y+", *model = v->walls ? v->walls : "adami";
   sph_eos eos = v->thermal ? sph_eos_ideal_gas(1.4) : sph_eos_tait(1000, 20, 7);
   eos.ctx = &let_go[EOS], eos.free = count, eos.c_v = 700;
   sph_group_set_eos(water, eos);
   sph_boundary boundary = sph_boundary_adami_no_slip();
+  boundary.name = model;
+  if (!strcmp(model, "mirror"))
+    sph_boundary_mirror_box(&boundary, lo, hi, open, 2);
+  else
+    sph_group_add_layers(floor, lo, hi, open, 1000);
   boundary.temperature = v->energy ? 0.2 : 0;
   boundary.motion = slide, boundary.ctx = &let_go[BOUNDARY], boundary.free = count;
   sph_group_set_boundary(floor, boundary);
@@ -216,7 +222,7 @@ static int attach_and_run(sph_sim *sim, const variant *v)
   sph_sim_set_integrator(sim, &(sph_integrator_def){.method = v->method});
   sph_sim_add_output(sim, (sph_output){"nothing", 0.002, .frame = frame, .ctx = &let_go[OUTPUT],
                                        .free = count});
-  add_moments(sim, v);
+  add_moments(sim);
   long n = sph_group_count(water);
   double *u = v->thermal || v->energy ? sph_group_write(water, "energy", 0) : NULL;
   for (long i = 0; u && i < n; i++) u[i] = 100;
@@ -233,7 +239,7 @@ static int simulate(const variant *v, char *text, size_t size)
   sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2,
                                                .dx = 0.1,
                                                .threads = 2,
-                                               .neighbors = v->neighbors,
+                                               .search = v->neighbors,
                                                .periodic = {v->periodic},
                                                .length = {v->periodic}});
   int status = attach_and_run(sim, v);
@@ -264,16 +270,18 @@ static void each_allocation_fails(const variant *v)
 }
 
 static const variant variants[] = {
-    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, C2, NULL, 0, 0},
-    {"leapfrog", "brute-force", 1, 0, C2, NULL, 0, 1},
-    {"verlet", NULL, 1, 1, C2, NULL, 0, 0},
-    {"leapfrog", NULL, 0, 0, SUMMED, "temperature", 1, 1},
-    {"erk:bogacki-shampine-4-2-3", NULL, 1, 1, SUMMED, "entropy", 0, 0},
-    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, PHI, "u", 1, 0},
-    {"leapfrog", NULL, 0, 1, PHI, "total", 1, 1},
-    {"imex:ark324l2sa-4-2-3", NULL, 1, 1, C2, "total", 0, 0},
-    {"imex:ark324l2sa-4-2-3", NULL, 0, 0, C2, "temperature", 1, 1},
-    {"mri:kw3", NULL, 1, 0, C2, NULL, 0, 0},
+    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, C2, NULL, 0, 0, NULL},
+    {"leapfrog", "brute-force", 1, 0, C2, NULL, 0, 1, NULL},
+    {"verlet", "hash", 1, 1, C2, NULL, 0, 0, NULL},
+    {"leapfrog", "tree", 0, 0, SUMMED, "temperature", 1, 1, NULL},
+    {"erk:bogacki-shampine-4-2-3", NULL, 1, 1, SUMMED, "entropy", 0, 0, NULL},
+    {"erk:bogacki-shampine-4-2-3", NULL, 0, 0, PHI, "u", 1, 0, NULL},
+    {"leapfrog", NULL, 0, 1, PHI, "total", 1, 1, NULL},
+    {"imex:ark324l2sa-4-2-3", NULL, 1, 1, C2, "total", 0, 0, NULL},
+    {"imex:ark324l2sa-4-2-3", NULL, 0, 0, C2, "temperature", 1, 1, NULL},
+    {"mri:kw3", NULL, 1, 0, C2, NULL, 0, 0, NULL},
+    {"erk:bogacki-shampine-4-2-3", NULL, 1, 0, C2, NULL, 0, 0, "dbc"},
+    {"leapfrog", NULL, 1, 1, PHI, "total", 1, 0, "mirror"},
 };
 enum { VARIANTS = sizeof variants / sizeof *variants };
 
@@ -294,7 +302,7 @@ static void none_in_the_right_hand_side(void **state)
     sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2,
                                                  .dx = 0.1,
                                                  .threads = 2,
-                                                 .neighbors = v->neighbors,
+                                                 .search = v->neighbors,
                                                  .periodic = {v->periodic},
                                                  .length = {v->periodic}});
     if (attach_and_run(sim, v) != SPH_OK) fail_msg("%s", sph_sim_error(sim));

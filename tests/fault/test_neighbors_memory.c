@@ -56,8 +56,11 @@ static void each_allocation(void **state)
   (void)state;
   for (int d = 0; d < 2; d++)
     for (long i = 0; i < POINTS; i++) x[d][i] = (double)((i * (d ? 7919 : 104729)) % 1009) / 50;
-  for (int threads = 1; threads <= 3; threads += 2) {
+  static const char *const searches[] = {"grid", "hash", "tree"};
+  for (int k = 0; k < 6; k++) {
+    const int threads = 1 + 2 * (k % 2);
     const sph_neighbors_def def = {.dim = 2,
+                                   .search = searches[k / 2],
                                    .reach = 3,
                                    .lanes = 4,
                                    .threads = threads,
@@ -66,9 +69,9 @@ static void each_allocation(void **state)
     calls = fail_at = 0;
     long right = live(&def), all = calls;
     assert_true(right > 5 && all > 15);
-    for (long k = 1; k <= all; k++) {
+    for (long at = 1; at <= all; at++) {
       calls = 0;
-      fail_at = k;
+      fail_at = at;
       assert_int_equal(live(&def), SPH_ERR_MEMORY);
     }
     calls = fail_at = 0;

@@ -299,6 +299,22 @@ static sph_sim *gas(const char *energy, int summed)
   return sim;
 }
 
+/* Water in a periodic box with what moves particles aside. */
+static sph_sim *shifted(sph_term shift)
+{
+  sph_sim *sim =
+      sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 0.1, .periodic = {1, 1}, .length = {1.2, 1.2}});
+  sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1.2, 1.2}, rho0);
+  sph_group_jitter(water, 0.2, 5);
+  sph_group_set_eos(water, sph_eos_tait(rho0, 20, 7));
+  stir(water, 2);
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, sph_term_pressure());
+  sph_sim_add_term(sim, sph_term_stress_artificial(0.2, 0.01));
+  sph_sim_add_term(sim, shift);
+  return sim;
+}
+
 static void powers(void **state)
 {
   (void)state;
@@ -308,6 +324,12 @@ static void powers(void **state)
   static const char *const energies[] = {"u", "total", "entropy", "temperature"};
   for (int k = 0; k < 4; k++) check_powers(gas(energies[k], 0), energies[k]);
   check_powers(gas("u", 1), "u, density summed");
+  sph_term shift = sph_term_shifting("fick", 1);
+  shift.surface = 0;
+  check_powers(shifted(shift), "stress, shifting");
+  shift.steps = 3; /* no part of f */
+  check_powers(shifted(shift), "stress");
+  check_powers(shifted(sph_term_transport_velocity(0, 0)), "stress, transport velocity");
 }
 
 /* ---- what is refused ---- */

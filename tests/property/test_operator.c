@@ -583,7 +583,7 @@ static void same_search(void **state)
       const char *name = isa < SPH_ISA_COUNT ? sph_cpu_isa_name(isa) : NULL;
       if (name && sph_cpu_isa(name, NULL) < 0) continue;
       if (name) setenv("SPHODE_ISA", name, 1);
-      evaluate(&s, &all[k], (sph_operator_def){.neighbors = name ? NULL : "brute-force"}, other);
+      evaluate(&s, &all[k], (sph_operator_def){.search = name ? NULL : "brute-force"}, other);
       unsetenv("SPHODE_ISA");
       for (int o = 0; o < OUT; o++)
         for (long i = 0; i < s.c.n; i++) largest = fmax(largest, fabs(one[o][i]));

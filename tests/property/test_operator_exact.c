@@ -254,7 +254,7 @@ static void bad_definitions(void **state)
              {{.dim = 2, .h = INFINITY}, "h = inf m"},
              {{.dim = 2, .h = 1, .threads = -1}, "threads = -1"},
              {{.dim = 2, .h = 1, .kernel = "wendland"}, "did you mean 'wendland-c"},
-             {{.dim = 2, .h = 1, .neighbors = "tree"}, "neighbors \"tree\""},
+             {{.dim = 2, .h = 1, .search = "oak"}, "search \"oak\""},
              {{.dim = 2, .h = 1, .periodic = {1}, .length = {3.9}}, "at least 2 reach = 4 m"}};
   sph_error error = {0};
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {

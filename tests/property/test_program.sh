@@ -81,15 +81,36 @@ run 0 "$sphode" info kernels --csv --q "$q" && head -1 out | grep -qx "kernel,di
 ok $? "kernels as in the table of the literature"
 run 0 "$sphode" info kernels && ! grep -q '.\{101\}' out && grep -q "^wendland-c2  *2 h  *C2  *1.5  *24  *92 " out
 ok $? "the table of kernels fits 100 columns and has the neighbors of wendland-c2"
+run 0 "$sphode" info kernels --spacing 0.01 --dim 3 && ! grep -q '.\{101\}' out &&
+  grep -q "^wendland-c2  *1.3-2  *1.5  *0.015  *0.03  *92 +3.1e-03 .* no$" out &&
+  grep -q "^cubic-spline  *1.1-1.3  *1.2  *0.012  *0.024  *56 +8.1e-04 .* -6e-04$" out &&
+  grep -q "^cubic-spline  *1.41\* " out && ! grep -q "2D" out
+ok $? "kernels at a spacing: those of the literature, and at equal resolution the cubic spline is out of its range"
+run 0 "$sphode" info kernels --spacing 0.01 --json && { ! command -v python3 >/dev/null || python3 -c '
+import json, sys
+rows = json.load(sys.stdin)
+assert len(rows) == 16
+for r in rows:
+    e, o = r["equal-resolution"], r["recommended"]
+    assert abs(r["sigma-k"] * e["h"] / (rows[0 if r["dim"] == 2 else 8]["sigma-k"] * 0.015) - 1) < 1e-6
+    assert abs(o["support"] / o["h"] - round(o["support"] / o["h"])) < 1e-6 and o["fits"]' <out; }
+ok $? "... as JSON: sigma_k h is the same for all"
+run 2 "$sphode" info kernels --spacing 1cm && grep -q -e "--spacing 1cm: wanted a number > 0" err && [[ ! -s out ]]
+ok $? "a spacing that is none"
+usage "a dimension too many" "from 1 to 3" info kernels --spacing 1 --dim 4
+run 2 "$sphode" info kernels --dim 2 && grep -q -e "wants --spacing" err && [[ ! -s out ]]
+ok $? "a dimension without spacing"
+run 2 "$sphode" info terms --spacing 1 && grep -q -e "belong to info kernels" err && [[ ! -s out ]]
+ok $? "a spacing of terms"
 good=0
-for list in kernels eos materials terms integrators boundaries; do
+for list in kernels eos materials terms integrators boundaries searches; do
   run 0 "$sphode" info $list && [[ -s out ]] || good=1
   run 0 "$sphode" info $list --json && { ! command -v python3 >/dev/null || python3 -m json.tool <out >/dev/null; } || good=1
 done
 ok $good "each list, for people and as JSON"
 # Nothing is lost where lines are broken: the words are those of the JSON.
 good=0
-for list in eos materials terms integrators boundaries; do
+for list in eos materials terms integrators boundaries searches; do
   run 0 "$sphode" info $list && ! grep -q '.\{101\}' out || good=1
   tr -s ' \n' ' ' <out >words
   "$sphode" info $list --json | sed -n 's/.*"\(formula\|about\)": "\(.*\)"}.*/\2/p' >texts

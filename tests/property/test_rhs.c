@@ -78,14 +78,14 @@ static scene_def choose_scene(int dim, int k, int walls, int thermal)
 
 static void check(const scene_def *def, int mix)
 {
-  static const char *const isa[] = {NULL, "reference", "generic", NULL}, *const method[] = {
-                                                                             NULL, NULL, NULL,
-                                                                             "brute-force"};
+  static const char *const isa[] = {NULL, "reference", "generic", NULL, NULL, NULL};
+  static const char *const method[] = {NULL, NULL, NULL, "brute-force", "hash", "tree"};
   scene s;
   scene_make(&s, def);
   choose_terms(&s, mix);
   oracle_evaluate(&s.o);
-  for (int k = 0; k < 4; k++) {
+  for (int k = 0; k < 6; k++) {
+    if (k == 4 + mix % 2) continue; /* hash and tree by turns */
     sph_sim *sim = scene_sim(&s, (scene_options){.isa = isa[k], .neighbors = method[k]});
     assert_true(sph_sim_h(sim) == (double)s.o.h);
     scene_rates rates = scene_evaluate(&s, sim);
@@ -221,11 +221,16 @@ static void same_bits(scene *s, const scene_options *options, int n, const char 
 static void any_threads(void **state)
 {
   (void)state;
-  static const scene_options options[] = {{.threads = 1}, {.threads = 2}, {.threads = 3}};
+  static const char *const search[] = {NULL, "hash", "tree"};
   for (int dim = 2; dim <= 3; dim++) {
     scene s;
     large_scene(&s, dim);
-    same_bits(&s, options, 3, "threads");
+    for (int k = 0; k < 3; k++) {
+      const scene_options options[] = {{.threads = 1, .neighbors = search[k]},
+                                       {.threads = 2, .neighbors = search[k]},
+                                       {.threads = 3, .neighbors = search[k]}};
+      same_bits(&s, options, 3, "threads");
+    }
     scene_free(&s);
   }
 }
@@ -245,7 +250,7 @@ static void any_skin(void **state)
 static void any_search(void **state)
 {
   (void)state;
-  static const scene_options options[] = {{.neighbors = "blocks"}, {.neighbors = "brute-force"}};
+  static const scene_options options[] = {{.neighbors = "grid"}, {.neighbors = "brute-force"}};
   scene s;
   large_scene(&s, 3);
   same_bits(&s, options, 2, "neighbors");

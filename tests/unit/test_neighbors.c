@@ -14,6 +14,7 @@
 #include "clock.h"
 #include "memory.h"
 #include "neighbors_data.h"
+#include "searches.h"
 
 enum { MOST = 20200, SMALL = 343 };
 
@@ -249,7 +250,7 @@ static void check_scene(const scene *a, const scene *b, sph_neighbors_def def)
   b->place(&second_set, def.dim);
   sph_neighbors *nb = create(def);
   sort_and_build(nb);
-  int exact = a->exact && b->exact && !def.method;
+  int exact = a->exact && b->exact && !def.search;
   check_list(nb, &def, 0, &first_set, exact);
   check_list(nb, &def, 5, &second_set, exact);
   sph_neighbors_free(nb);
@@ -294,7 +295,7 @@ static void brute_force(void **state)
 {
   (void)state;
   sph_neighbors_def def = define(2, 4);
-  def.method = "brute-force";
+  def.search = "brute-force";
   def.periodic[1] = 1;
   def.length[1] = box;
   check_scene(&scenes[0], &scenes[8], def);
@@ -362,7 +363,7 @@ static void flyers_cost_nothing(void **state)
     sort_and_build(nb);
     print_message("# %ld flyers of %ld points: %.2f ms, %.3g bytes\n", flyers[k], first_set.n,
                   1e3 * (sph_clock() - begin), bytes[k] = sph_neighbors_bytes(nb));
-    memcpy(size[k], nb->set[0].grid.size, sizeof size[k]);
+    memcpy(size[k], sph_neighbors_grid_of(&nb->search, 0)->size, sizeof size[k]);
     assert_memory_equal(size[k], size[0], sizeof size[0]); /* the cells are as fine as without */
     assert_true(bytes[k] < 1.02 * bytes[0]);
     sph_neighbors_free(nb);
@@ -380,7 +381,7 @@ static void space_between_costs_nothing(void **state)
       for (long i = 0; i < first_set.n; i += 2) first_set.x[d][i] += 27 * apart;
     sph_neighbors *nb = create(define(3, 8));
     sort_and_build(nb);
-    const sph_grid *grid = &nb->set[0].grid;
+    const sph_grid *grid = sph_neighbors_grid_of(&nb->search, 0);
     assert_true(grid->size[0] == 2 && grid->size[2] <= 0.5);
     assert_true((double)grid->cells[0] * grid->size[0] < 2 * 27 + 2 * reach + 4);
     sph_neighbors_free(nb);
@@ -491,7 +492,7 @@ static void bad_arguments(void **state)
   rejected((sph_neighbors_def){.dim = 2, .reach = 1, .dx = -1}, "dx = -1");
   rejected((sph_neighbors_def){.dim = 2, .reach = 1, .lanes = 3}, "lanes = 3");
   rejected((sph_neighbors_def){.dim = 2, .reach = 1, .threads = -1}, "threads = -1");
-  rejected((sph_neighbors_def){.dim = 2, .reach = 1, .method = "tree"}, "brute-force");
+  rejected((sph_neighbors_def){.dim = 2, .reach = 1, .search = "oak"}, "brute-force");
 }
 
 static void not_finite(void **state)

@@ -1,0 +1,33 @@
+/* sphode/import.h -- particles of a file as the start of a group. */
+#ifndef SPHODE_IMPORT_H
+#define SPHODE_IMPORT_H
+#include "sphode/group.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Adds the particles of a file to a group, before the run:
+ *
+ *   .csv            a line with names, and units in brackets or none, then a row a particle;
+ *                   columns x (y, z), and where they are there velocity_x ..., density, mass,
+ *                   energy
+ *   .hdf, .hdf5     GADGET's layout, as snapshots of sphode: Coordinates, and Velocities, Density,
+ *                   Masses (or MassTable of the header), InternalEnergy where they are there
+ *
+ * in SI units: a unit of another name is an error.  Without a mass it is rho0 dx^dim, without a
+ * density rho0, without a velocity 0.  The energy (u) is taken by fluids whose equation of state
+ * has one; other fields follow from these.  Positions need not be a lattice, but dx apart or so. */
+typedef struct sph_import_def {
+  const char *path;
+  int part;    /* HDF5: PartType0, 1, ... */
+  double rho0; /* [kg/m^3] */
+} sph_import_def;
+
+/* Failures stick to the simulation that the group belongs to. */
+SPH_API void sph_import(sph_sim *sim, sph_group *group, const sph_import_def *def);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

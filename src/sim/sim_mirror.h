@@ -1,0 +1,23 @@
+/* sim_mirror.h -- ghosts: images of the fluid behind the planes of mirror walls. */
+#ifndef SPH_SIM_MIRROR_H
+#define SPH_SIM_MIRROR_H
+#include "sim_rhs.h"
+
+/* Normals of length 1; else what is wrong with the planes of a boundary is told. */
+int sph_sim_mirror_take(sph_sim *sim, const sph_group *group, sph_boundary *boundary);
+/* Before the run: do the planes of all mirrors fit each other, the box and the fluids? */
+int sph_sim_mirror_check(sph_sim *sim);
+/* At a list build: the ghosts of the positions in `built`, theirs too; with room for them. */
+int sph_sim_mirror_make(sph_sim *sim);
+/* Has a mirror moved so far since the build that fluid without an image may be near it? */
+int sph_sim_mirror_moved(const sph_sim *sim, double t);
+/* Where the mirrors stand: part of what lists depend on. */
+void sph_sim_mirror_stand(sph_sim *sim, double t);
+/* Positions, masses, velocities of the ghosts of mirror g; then, behind eos, all the rest. */
+void sph_sim_mirror_place(const sph_evaluation *e, int g);
+void sph_sim_mirror_fill(const sph_evaluation *e, int g);
+/* Between steps: what is behind a mirror comes back, with its velocity reflected: by the symmetry
+ * of images the same state, but for gravity.  Returns how many. */
+long sph_sim_mirror_bounce(sph_sim *sim);
+
+#endif

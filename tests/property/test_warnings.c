@@ -1,0 +1,259 @@
+/* Warnings of an evaluated simulation: each is provoked, and says what was found and what is right;
+ * what it calls right has none.  The cases that come along have none but those named here. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <dirent.h>
+#include <math.h>
+#include <sphode.h>
+
+static const double g = 10, H = 1;
+
+typedef struct tank {
+  const char *kernel;
+  double dx, h_over_dx, c0;
+  double layers;  /* of its walls [dx]; 0: as thick as the support */
+  double spread;  /* the water's particles stand that much farther apart; 0: 1 */
+  double width;   /* of the water [m]; 0: H */
+  double moving;  /* of the water [m/s] */
+  double driven;  /* of the tank [m/s] */
+  double gravity; /* [m/s^2] */
+  int rotated;    /* gravity along x, which is periodic */
+  int hydrostatic;
+} tank;
+
+static double speed;
+
+static void slide(void *ctx, double t, double displacement[3], double velocity[3],
+                  double acceleration[3])
+{
+  (void)ctx, (void)acceleration, (void)displacement;
+  velocity[0] = speed * (t > 0);
+}
+
+static void add_tank(sph_sim *sim, const tank *k)
+{
+  const double thick = k->layers * k->dx, corner[2] = {0}, far[2] = {2, 2};
+  if (k->layers == 0) {
+    sph_group *wall = sph_group_walls(sim, "tank", corner, far, 1000);
+    sph_boundary boundary = sph_boundary_adami();
+    speed = k->driven;
+    if (k->driven > 0) boundary.motion = slide;
+    sph_group_set_boundary(wall, boundary);
+    return;
+  }
+  sph_group *wall = sph_group_create(sim, "tank", "wall");
+  sph_group_add_box(wall, (double[]){-thick, -thick}, (double[]){2 + thick, 0}, 1000);
+  sph_group_add_box(wall, (double[]){-thick, 0}, (double[]){0, 2}, 1000);
+  sph_group_add_box(wall, (double[]){2, 0}, (double[]){2 + thick, 2}, 1000);
+  sph_group_set_boundary(wall, sph_boundary_adami());
+}
+
+static sph_sim *make(const tank *k)
+{
+  const double corner[2] = {0};
+  sph_sim_def def = {.dim = 2, .dx = k->dx, .kernel = k->kernel, .h_over_dx = k->h_over_dx};
+  if (k->rotated) def.periodic[0] = 1, def.length[0] = H;
+  sph_sim *sim = sph_sim_create(&def);
+  sph_group *water =
+      sph_group_box(sim, "water", corner, (double[]){k->width > 0 ? k->width : H, H}, 1000);
+  if (!k->rotated) add_tank(sim, k);
+  sph_group_set_eos(water, sph_eos_tait(1000, k->c0, 7));
+  if (k->hydrostatic) sph_group_set_hydrostatic(water, 1, H, k->gravity);
+  for (int d = 0; d < 2 && k->spread > 0; d++) {
+    double *x = sph_group_write(water, "position", d);
+    for (long i = 0; i < sph_group_count(water); i++) x[i] *= k->spread;
+  }
+  double *v = sph_group_write(water, "velocity", 1);
+  for (long i = 0; v && i < sph_group_count(water); i++) v[i] = k->moving;
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, sph_term_pressure());
+  sph_sim_add_term(sim, sph_term_gravity((double[3]){k->rotated ? k->gravity : 0,
+                                                     k->rotated ? 0 : -k->gravity}));
+  return sim;
+}
+
+/* Exactly these, each with the given beginnings of its parts. */
+static void warned(const tank *k, int n, const char *const (*parts)[4])
+{
+  sph_sim *sim = make(k);
+  char text[300] = "";
+  if (sph_sim_evaluate(sim)) fail_msg("%s", sph_sim_error(sim));
+  for (int w = 0; w < n; w++) {
+    assert_int_equal(sph_sim_warning(sim, w, text, sizeof text), 1);
+    for (int p = 0; p < 4 && parts[w][p]; p++)
+      if (!strstr(text, parts[w][p])) fail_msg("\"%s\" lacks \"%s\"", text, parts[w][p]);
+  }
+  if (sph_sim_warning(sim, n, text, sizeof text)) fail_msg("also: \"%s\"", text);
+  sph_sim_free(sim);
+}
+
+static tank sound(void)
+{
+  return (tank){.dx = 0.05, .c0 = 10 * sqrt(2 * g * H), .gravity = g, .hydrostatic = 1};
+}
+
+static void none(void **state)
+{
+  (void)state;
+  tank k = sound();
+  warned(&k, 0, NULL);
+  k.layers = 3;
+  warned(&k, 0, NULL);
+  k.h_over_dx = 1.3;
+  warned(&k, 0, NULL);
+  k = sound(), k.rotated = 1, k.hydrostatic = 0, k.c0 = 1; /* nothing falls onto anything */
+  warned(&k, 0, NULL);
+}
+
+static void range(void **state)
+{
+  (void)state;
+  tank k = sound();
+  k.h_over_dx = 1.2;
+  warned(&k, 1,
+         (const char *const[][4]){{"h = 1.2 dx", "wendland-c2 in 2D right is 1.3 to 2",
+                                   "--spacing 0.05 --dim 2", "too few"}});
+  k.kernel = "cubic-spline", k.h_over_dx = 2;
+  warned(&k, 1,
+         (const char *const[][4]){{"h = 2 dx", "cubic-spline in 2D right is 1.1 to 1.3", "pair"}});
+}
+
+static void mach(void **state)
+{
+  (void)state;
+  tank k = sound();
+  k.c0 = 40;
+  warned(&k, 1,
+         (const char *const[][4]){{"water can fall to sqrt(2 g H) = 4.47 m/s, 0.11", "40 m/s",
+                                   "at most 0.1", "of 44.7 m/s or more"}});
+  k = sound(), k.moving = 9;
+  warned(&k, 1,
+         (const char *const[][4]){
+             {"water moves at 9 m/s, 0.2", "44.7 m/s", "at most 0.1", "of 90 m/s or more"}});
+  k = sound(), k.driven = 6;
+  warned(&k, 1,
+         (const char *const[][4]){
+             {"wall tank moves at 6 m/s, 0.13", "44.7 m/s", "at most 0.1", "of 60 m/s or more"}});
+}
+
+static void pressure(void **state)
+{
+  (void)state;
+  tank k = sound();
+  k.c0 = 20, k.hydrostatic = 0;
+  const char *const fall[4] = {"can fall", "44.7"};
+  warned(&k, 2,
+         (const char *const[][4]){{fall[0], fall[1]},
+                                  {"its own weight compresses it by g H/c0^2 = 2.5 %",
+                                   "at most 1 %", "of 31.6 m/s or more", "not 20 m/s"}});
+  k.c0 = 15, k.hydrostatic = 1;
+  warned(&k, 3,
+         (const char *const[][4]){{fall[0], fall[1]},
+                                  {"g H/c0^2 = 4.4 %"},
+                                  {"density starts ", "% off", "at most 3 %"}});
+}
+
+static void neighbors(void **state)
+{
+  (void)state;
+  tank k = sound();
+  k.spread = 1.9, k.hydrostatic = 0;
+  k.c0 = 100;
+  warned(&k, 1,
+         (const char *const[][4]){
+             {"neighbours on average", "right are 24", "a smaller spacing, or a larger h/dx"}});
+}
+
+static void thin_body(void **state)
+{
+  (void)state;
+  tank k = sound();
+  k.width = 0.1; /* the support: 0.15 m */
+  warned(&k, 1,
+         (const char *const[][4]){{"water: the support, 0.15 m to each side", "along x, 0.1 m",
+                                   "a spacing of 0.0083 m or less", "not 0.05 m"}});
+  k.width = 0.15;
+  warned(&k, 0, NULL);
+}
+
+static void thin_walls(void **state)
+{
+  (void)state;
+  tank k = sound();
+  for (k.layers = 1; k.layers <= 2; k.layers++)
+    warned(&k, 1,
+           (const char *const[][4]){{"walls end within the support, 0.15 m, of ",
+                                     "% of the fluid particles beside them",
+                                     "right are 3 layers"}});
+  k.h_over_dx = 2, k.layers = 3;
+  warned(&k, 1, (const char *const[][4]){{"right are 4 layers"}});
+  k.layers = 4;
+  warned(&k, 0, NULL);
+}
+
+/* ---- the cases that come along */
+
+/* Those that have a warning, meant so: the patch is drawn out to almost twice dx; the standing wave
+ * fills its tank, and nothing falls. */
+static const struct {
+  const char *file, *warning;
+} meant[] = {{"elliptical-patch-2d.yml", "h = 2.5 dx"},
+             {"standing-wave-2d.yml", "water can fall to"}};
+
+static void check_case(const char *directory, const char *file)
+{
+  char path[800], text[300];
+  const char *expected = NULL;
+  sph_error error = {0};
+  int n = 0;
+  for (size_t k = 0; k < sizeof meant / sizeof *meant; k++)
+    if (!strcmp(meant[k].file, file)) expected = meant[k].warning;
+  snprintf(path, sizeof path, "%s/%s", directory, file);
+  sph_case *c = sph_case_read(path, 0, NULL, &error);
+  sph_sim *sim = c ? sph_case_build(c, 1, &error) : NULL;
+  if (!sim || sph_sim_evaluate(sim))
+    fail_msg("%s: %s", file, sim ? sph_sim_error(sim) : error.text);
+  for (; sph_sim_warning(sim, n, text, sizeof text); n++)
+    if (!expected || !strstr(text, expected)) fail_msg("%s: %s", file, text);
+  assert_int_equal(n, expected != NULL);
+  sph_sim_free(sim);
+  sph_case_free(c);
+}
+
+static void shipped(void **state)
+{
+  (void)state;
+  char path[400];
+  const char *source = getenv("SRCDIR");
+  const struct dirent *entry;
+  int n = 0;
+  snprintf(path, sizeof path, "%s/cases", source ? source : ".");
+  DIR *cases = opendir(path);
+  assert_non_null(cases);
+  while ((entry = readdir(cases))) {
+    const char *end = strrchr(entry->d_name, '.');
+    if (!end || strcmp(end, ".yml")) continue;
+    check_case(path, entry->d_name);
+    n++;
+  }
+  closedir(cases);
+  print_message("# %d cases\n", n);
+  assert_true(n >= 18);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(none),       cmocka_unit_test(range),     cmocka_unit_test(mach),
+      cmocka_unit_test(pressure),   cmocka_unit_test(neighbors), cmocka_unit_test(thin_body),
+      cmocka_unit_test(thin_walls), cmocka_unit_test(shipped),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
