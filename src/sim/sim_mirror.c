@@ -227,7 +227,7 @@ static int append(sph_sim *sim, const sph_ghost *ghost, const double x[3])
   int status = sph_group_data_reserve(home, home->n + 1, &sim->error);
   if (!status) status = sph_sim_prepare_room(sim, home->index);
   if (status) return status;
-  for (int d = 0; d < sim->dim; d++) sorted->built[d][home->n] = x[d];
+  for (int d = 0; d < sim->dim && d < 3; d++) sorted->built[d][home->n] = x[d];
   home->id[home->n] = sim->group[ghost->group]->id[ghost->parent];
   home->ghost[home->n++] = *ghost;
   return SPH_OK;
@@ -324,7 +324,7 @@ static void take(int dim, double *const *from, long i, double to[3])
 
 static void give(int dim, const double from[3], double *const *to, long i)
 {
-  for (int d = 0; d < dim; d++) to[d][i] = from[d];
+  for (int d = 0; d < dim && d < 3; d++) to[d][i] = from[d];
 }
 
 static void reflect(const double n[3], const double about[3], double a[3])
