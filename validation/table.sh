@@ -53,7 +53,12 @@ runs "Jittered start, no shifting" parameters.dx "L/25 L/50 L/100"
 judge L/50
 picture L/50 compare_0 "velocities of all particles over the exact ones at three times"
 
-missing "Taylor-Green vortices with shifting" "with the case file that has it"
+page taylor-green-shifted taylor-green-shifted-2d terms
+runs "h/dx = 2, shifting" parameters.dx "L/25 L/50"
+judge L/50
+order velocity 1.7
+picture L/50 compare_0 "velocities of all particles over the exact ones at the end"
+
 missing "lid-driven cavity, Re = 100 and 400" "with the case file lid-driven-cavity-2d.yml"
 
 page hydrostatic hydrostatic-tank-2d walls
@@ -65,7 +70,7 @@ curves kinetic "Kinetic energy, diffusion of Antuono" 'column("time [s]")*sqrt(9
 runs "Diffusion of Fourtakas, walls that may pull" run.end "10*T 60*T 120*T" --set terms.delta.model=fourtakas --set groups.tank.boundary.tension=true
 judge 120*T '^pressure'
 runs "Diffusion of Molteni: its drift" run.end "10*T 60*T" --set terms.delta.model=molteni
-say "Dynamic boundary conditions (DBC) are not here: there is nothing to report of their drift."
+runs "Dynamic boundary particles (dbc): their drift" run.end "10*T 60*T" --set groups.tank.boundary.model=dbc
 
 page standing-wave standing-wave-2d terms
 runs "Re = 50" parameters.dx "H/20 H/40"

@@ -64,7 +64,8 @@ static void every_allocation_of_a_comparison_may_fail(void **state)
       "  shapes: [{box: {lower: [0], upper: [1]}}]}}\n"
       "terms: {continuity: , pressure: }\nrun: {end: 0.02}\noutput: {snapshots: 0.01}\n"
       "compare: [{name: n, quantity: velocity, at: [0.01, 0.02], reference:\n"
-      "  {wave: {density: 1, sound_speed: 1, length: 1, amplitude: 0}}}]\n";
+      "  {wave: {density: 1, sound_speed: 1, length: 1, amplitude: 0}}},\n"
+      "  {name: p, quantity: kinetic, norm: period, reference: {value: 1}}]\n";
   char directory[FOLDER_MAX];
   sph_error error = {0};
   sph_comparison *list;
