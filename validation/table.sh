@@ -59,7 +59,10 @@ judge L/50
 order velocity 1.7
 picture L/50 compare_0 "velocities of all particles over the exact ones at the end"
 
-missing "lid-driven cavity, Re = 100 and 400" "with the case file lid-driven-cavity-2d.yml"
+page lid-driven-cavity lid-driven-cavity-2d walls
+runs "Re = 100, shifting" parameters.n "25 50"
+judge 50
+picture 50 compare_0 "velocity along the vertical centre line, mean over 16 to 20 L/U"
 
 page hydrostatic hydrostatic-tank-2d walls
 runs "Diffusion of Antuono, H/dx = 20" run.end "10*T 60*T 120*T"
