@@ -109,14 +109,9 @@ int sph_prog_advice(const prog_options *o)
   const int from = o->dim ? o->dim : 2, to = o->dim ? o->dim : 3;
   if (o->json) return print_json(from, to, dx), PROG_OK;
   for (int dim = from; dim <= to; dim++) print_table(dim, dx);
-  puts("range: of h/dx that suit the kernel; * outside of it.  kh: radius of the support.  nb, "
-       "sum-1: "
-       "neighbours\n"
-       "of a particle of the lattice, and sum V W - 1 there.  sigma: sigma_k h, the standard "
-       "deviation "
-       "of W.\n"
-       "pairing: no, or how far below zero the Fourier transform of W falls: with many neighbours "
-       "such\n"
-       "particles pair.");
+  puts("range: of h/dx that suit the kernel; * outside of it.  kh: radius of the support.\n"
+       "nb, sum-1: neighbours of a particle of the lattice, and sum V W - 1 there.\n"
+       "sigma: sigma_k h, the standard deviation of W.  pairing: no, or how far below zero the\n"
+       "Fourier transform of W falls: with many neighbours such particles pair.");
   return PROG_OK;
 }
