@@ -9,6 +9,7 @@
 #include "sphode/boundary.h"
 #include "sphode/case.h"
 #include "sphode/checkpoint.h"
+#include "sphode/correction.h"
 #include "sphode/eos.h"
 #include "sphode/event.h"
 #include "sphode/export.h"

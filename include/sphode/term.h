@@ -98,6 +98,8 @@ struct sph_term {
    * "antuono", "fourtakas"; viscosity-laminar: "morris" (NULL), "mcg"; drag: "K" (NULL), "time";
    * shifting: "delta-plus" (NULL), "fick" */
   const char *form;
+  /* continuity: "none" (NULL), "one-sided"; pressure, viscosity-laminar: and "mean" */
+  const char *correction;
   double alpha,
       beta;        /* artificial viscosities, artificial stress; alpha: artificial conductivity */
   double delta;    /* density diffusion */
@@ -161,6 +163,23 @@ SPH_API sph_term sph_term_summation(int calibrate);
  * thermal fluids are heated by the partner of the same row. */
 SPH_API sph_term sph_term_pressure(void);
 SPH_API sph_term sph_term_pressure_form(const char *form);
+/* A continuity, pressure or viscosity-laminar whose kernel gradients are corrected by the inverse B
+ * of the gradient matrix M_i = - sum V_j r_ij r_ij F, over neighbours of its species (Randles &
+ * Libersky 1996; Bonet & Lok 1999); B = 1 where the least eigenvalue of M is below 0.2, B of i at
+ * walls.
+ *
+ *   "one-sided"  B_i grad W: continuity of form c2 is exact for a linear velocity, also at
+ *                surfaces; pressure is -1/rho_i sum V_j (p_j - p_i) B_i grad W, exact for a linear
+ *                pressure, whatever its form, and conserves nothing
+ *   "mean"       pressure: p_i/rho_i^2 B_i + p_j/rho_j^2 B_j, conserves linear momentum, with
+ *                continuity "one-sided" energy, but angular momentum in form c2 only
+ *   viscosity-laminar: e.B e F with e = r_ij/r and B of i, or ("mean") of both, which conserves
+ *                linear momentum
+ *
+ * Matched: pressure "mean" with continuity "one-sided", "none" with "none", pressure "one-sided"
+ * with any.  Not with an implicit viscosity-laminar, nor where derivatives of f are asked for
+ * (sphode/jacobian.h, sensitivity.h, adjoint.h), nor with pair terms that have a scalar. */
+SPH_API sph_term sph_term_corrected(sph_term term, const char *correction);
 /* Monaghan (1992) artificial viscosity with heating; alpha, beta >= 0. */
 SPH_API sph_term sph_term_viscosity_artificial(double alpha, double beta);
 /* Artificial viscosity with a signal velocity (Monaghan 1997) and heating: alpha 0.5 to 1, beta

@@ -11,6 +11,7 @@
 #include "memory.h"
 #include "sphode/case.h"
 #include "sphode/checkpoint.h"
+#include "sphode/correction.h"
 #include "sphode/import.h"
 #include "sphode/kernel.h"
 
@@ -314,7 +315,7 @@ static sph_term transport(const sph_case_node *map)
   return term;
 }
 
-sph_term sph_case_build_term(const sph_case_node *map)
+static sph_term plain_term(const sph_case_node *map)
 {
   const char *name = map->key, *form = get_text(map, "form", NULL);
   double alpha = get_number(map, "alpha", 0), g[3];
@@ -345,6 +346,11 @@ sph_term sph_case_build_term(const sph_case_node *map)
   if (!strcmp(name, "harmonic")) return sph_term_harmonic(get_number(map, "omega", 0));
   get_vector(map, "acceleration", g);
   return sph_term_gravity(g);
+}
+
+sph_term sph_case_build_term(const sph_case_node *map)
+{
+  return sph_term_corrected(plain_term(map), get_text(map, "correction", NULL));
 }
 
 static int add_term(const builder *b, const sph_case_node *map)
@@ -382,6 +388,12 @@ static int check_scales(const builder *b, const sph_case_node *map)
                                 one->key, map->key, summed ? "a sum" : "integrated", energy);
   }
   return SPH_OK;
+}
+
+static int add_reset(const builder *b, const sph_case_node *map)
+{
+  sph_sim_reset_density(b->sim, get_text(map, "kind", NULL), (long)get_number(map, "every", 0));
+  return told(b, map);
 }
 
 static sph_integrator_def integrator_of(const sph_case_node *map)
@@ -453,6 +465,7 @@ static int build_parts(builder *b)
     status = add_term(b, node);
   for (node = child_of(root, "groups")->first; node && !status; node = node->next)
     status = check_scales(b, node);
+  if (!status && (node = child_of(root, "density_reset"))) status = add_reset(b, node);
   if (!status) status = set_integrator(b, child_of(root, "integrator"));
   for (node = child_of(root, "groups")->first; node && !status; node = node->next)
     status = set_initial(b, node);

@@ -1,14 +1,17 @@
-/* Phase prepare: <grad rho>^L of every fluid particle, for the Antuono diffusion (gradient_pair.h).
+/* Phase prepare (gradient_pair.h): <grad rho>^L of every fluid particle, for the Antuono diffusion;
+ * B = M^-1, for terms whose gradients are corrected.
  *
  * Where the least eigenvalue of M is under 0.4 (a surface, an isolated particle) the gradient is
- * left out: Molteni's diffusion for that end of the pair. */
+ * left out: Molteni's diffusion for that end of the pair.  Where it is under 0.2, B = 1.  The
+ * first M is of neighbours of the same fluid, as the diffusion, the second of all its species. */
 #include <string.h>
 
 #include "gradient_loops.h"
 #include "sim_rhs.h"
 
-static const double LEAST_EIGENVALUE = 0.4;
+static const double LEAST_EIGENVALUE = 0.4, LEAST_CORRECTED = 0.2;
 
+/* Cholesky of the dim x dim matrix A - shift I; 0 where it is not positive definite. */
 int sph_sim_gradients_cholesky(int dim, double A[3][3], double shift, double L[3][3])
 {
   for (int a = 0; a < dim; a++)
@@ -34,15 +37,21 @@ void sph_sim_gradients_solve(int dim, double L[3][3], double x[3])
   }
 }
 
-int sph_sim_gradients_factor(const sph_sim *sim, double *const *matrix, long s, double L[3][3])
+/* Of M; 0 where it has an eigenvalue below `least`. */
+static int factor(const sph_sim *sim, double *const *matrix, long s, double least, double L[3][3])
 {
   int k = 0;
   double M[3][3];
   memset(L, 0, 9 * sizeof(double));
   for (int a = 0; a < sim->dim; a++)
     for (int b = a; b < sim->dim; b++) M[a][b] = M[b][a] = sim->F_scale * matrix[k++][s];
-  return sph_sim_gradients_cholesky(sim->dim, M, LEAST_EIGENVALUE, L) &&
+  return sph_sim_gradients_cholesky(sim->dim, M, least, L) &&
          sph_sim_gradients_cholesky(sim->dim, M, 0, L);
+}
+
+int sph_sim_gradients_factor(const sph_sim *sim, double *const *matrix, long s, double L[3][3])
+{
+  return factor(sim, matrix, s, LEAST_EIGENVALUE, L);
 }
 
 static void finish(const sph_sim *sim, sph_sorted *sorted, long s)
@@ -56,19 +65,47 @@ static void finish(const sph_sim *sim, sph_sorted *sorted, long s)
     sorted->record[s * sorted->stride + slot_extra(dim) + a] = gradient[a];
 }
 
+/* B at sorted place s. */
+static void invert(const sph_sim *sim, sph_sorted *sorted, long s)
+{
+  const int dim = sim->dim;
+  double L[3][3], *B = sorted->record + s * sorted->stride + slot_B(dim);
+  const int corrected = factor(sim, sorted->sum, s, LEAST_CORRECTED, L);
+  for (int a = 0; a < dim; a++) {
+    double column[3] = {0};
+    column[a] = 1;
+    if (corrected) sph_sim_gradients_solve(dim, L, column);
+    for (int b = a; b < dim; b++) *B++ = column[b];
+  }
+}
+
+/* Sums over neighbours of the same fluid, or over those of its species that are another. */
+static void add_sums(sph_sim *sim, int g, int same)
+{
+  sph_pair_function *loop = sph_gradient_loop(sim->isa, sim->kernel_number, sim->dim);
+  for (int s = 0; s < sim->groups; s++)
+    if (sph_sim_interaction_same_species(sim->group[g], sim->group[s]) &&
+        sph_sim_interaction_same_fluid(sim->group[g], sim->group[s]) == same)
+      sph_sim_pairs_loop(sim, loop, g, s, &sim->constants);
+}
+
 int sph_sim_gradients(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
   if (!e->part->gradients) return SPH_OK;
-  sph_pair_function *loop = sph_gradient_loop(sim->isa, sim->kernel_number, sim->dim);
   for (int g = 0; g < sim->groups; g++) {
+    const long n = e->view[g].n;
     if (sim->group[g]->wall || sim->group[g]->eos.dust) continue;
     sph_sim_pairs_clear(sim, g, gradient_sums(sim->dim));
-    for (int s = 0; s < sim->groups; s++)
-      if (sph_sim_interaction_same_fluid(sim->group[g], sim->group[s]))
-        sph_sim_pairs_loop(sim, loop, g, s, &sim->constants);
-#pragma omp parallel for num_threads(sim->threads) schedule(static) if (e->view[g].n > 2048)
-    for (long s = 0; s < e->view[g].n; s++) finish(sim, &sim->sorted[g], s);
+    add_sums(sim, g, 1);
+    if (e->part->rates & SPH_ANTUONO) {
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > 2048)
+      for (long s = 0; s < n; s++) finish(sim, &sim->sorted[g], s);
+    }
+    if (!(e->part->terms & SPH_CORRECTED)) continue;
+    add_sums(sim, g, 0);
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > 2048)
+    for (long s = 0; s < n; s++) invert(sim, &sim->sorted[g], s);
   }
   return SPH_OK;
 }

@@ -28,7 +28,8 @@ static unsigned terms_of(const sph_part *part, const sph_group *target, const sp
 {
   unsigned terms = part->terms;
   if (!sph_sim_interaction_same_species(target, source)) return 0;
-  if (target->eos.dust) return terms & (SPH_CONTINUITY | SPH_FORM_C2 | SPH_FORM_PHI | SPH_THERMAL);
+  if (target->eos.dust) /* without gradient matrices */
+    return terms & (SPH_CONTINUITY | SPH_FORM_C2 | SPH_FORM_PHI | SPH_THERMAL);
   if (!sph_sim_interaction_same_fluid(target, source)) terms &= ~(unsigned)SPH_DIFFUSION;
   if (!source->wall) return terms;
   if (source->model == SPH_MODEL_MIRROR) /* all of them, as with the fluid */
@@ -86,6 +87,7 @@ fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part
   if (k.conduction == 0) k.terms &= ~(unsigned)SPH_CONDUCTION;
   if (k.terms & SPH_STRESS)
     k.inverse_w_dx = sim->W_scale / sph_kernel_w(sim->kernel, sim->dim, sim->dx, h);
+  k.terms = (k.terms & ~(unsigned)SPH_CORRECTED) | fluid_corrections(k.terms);
   if (k.terms & SPH_FOURTAKAS) column(sim, &target->eos, &k);
   return k;
 }
@@ -112,6 +114,14 @@ tile_constants sph_sim_interaction_tile(const sph_evaluation *e, const fluid_con
   return k;
 }
 
+/* Built-in terms alone. */
+static void add_fluid(sph_sim *sim, const fluid_constants *k, int target, int source)
+{
+  if (k->terms & SPH_PAIR_TERMS)
+    sph_sim_pairs_loop(sim, sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, k->terms),
+                       target, source, k);
+}
+
 /* Registered pair terms beside the built-in ones. */
 static void add_tiles(sph_evaluation *e, const fluid_constants *fluid, int target, int source)
 {
@@ -126,7 +136,7 @@ void sph_sim_interaction_tiles(sph_evaluation *e, int target, int source)
   const sph_sim *sim = e->sim;
   fluid_constants k =
       sph_sim_interaction_constants(sim, e->part, sim->group[target], sim->group[source]);
-  k.terms &= ~(unsigned)SPH_PAIR_TERMS;
+  k.terms &= ~(unsigned)(SPH_PAIR_TERMS | SPH_CORRECTED);
   add_tiles(e, &k, target, source);
 }
 
@@ -135,11 +145,13 @@ void sph_sim_interaction_add(sph_evaluation *e, int target, int source)
   sph_sim *sim = e->sim;
   const fluid_constants k =
       sph_sim_interaction_constants(sim, e->part, sim->group[target], sim->group[source]);
-  if (e->part->tiles && !sim->group[target]->eos.dust)
+  const int tiles = e->part->tiles && !sim->group[target]->eos.dust;
+  if (!tiles || (k.terms & SPH_CORRECTED)) add_fluid(sim, &k, target, source);
+  if (!tiles) return;
+  if (k.terms & SPH_CORRECTED)
+    sph_sim_interaction_tiles(e, target, source); /* no matrices in tiles */
+  else
     add_tiles(e, &k, target, source);
-  else if (k.terms & SPH_PAIR_TERMS)
-    sph_sim_pairs_loop(sim, sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, k.terms), target,
-                       source, &k);
 }
 
 /* ---- which fields tiles hold ---- */

@@ -22,6 +22,7 @@ typedef struct packing {
   const double *phi;       /* NULL: another row */
   double *record;
   long stride;
+  int scalars; /* in the records: those of pair terms alone */
 } packing;
 
 static packing packing_of(const sph_evaluation *e, int g)
@@ -37,6 +38,7 @@ static packing packing_of(const sph_evaluation *e, int g)
   k.phi = sim->sorted[g].phi;
   k.record = sim->sorted[g].record;
   k.stride = sim->sorted[g].stride;
+  k.scalars = sim->part[SPH_WHOLE].tiles ? sim->terms.scalars : 0;
   return k;
 }
 
@@ -77,7 +79,7 @@ static inline void pack_more(const packing *k, int dim, long s, long i, double *
     record[slot_phi(dim)] = k->phi[i];
     record[slot_p(dim)] *= k->phi[i];
   }
-  for (int q = 0; q < k->sim->terms.scalars; q++)
+  for (int q = 0; q < k->scalars; q++)
     record[slot_scalar(dim) + q] = view->s[q] ? view->s[q][i] : 0;
 }
 

@@ -11,7 +11,7 @@
  *   those that read p, c, u, T; body terms; walls    eos
  *   pair terms that act at walls                     walls
  *   drag                                             drag
- *   Antuono's diffusion                              gradients
+ *   Antuono's diffusion, corrected terms             gradients; these: walls
  *   shifting, transport velocity                     shift */
 #include "sim_parts.h"
 
@@ -120,8 +120,10 @@ static void find_phases(const sph_sim *sim, sph_part *part)
   const int whole = part == &sim->part[SPH_WHOLE]; /* also tells what is shown */
   part->pairs = whole || part->rates || part->tiles || part->drag || part->shift;
   if (part->pairs) part->terms |= sim->loop_terms & (SPH_FORM_C2 | SPH_FORM_PHI | SPH_THERMAL);
-  part->walls = whole || (part->pairs && meets_walls(sim, part));
-  part->gradients = (part->rates & SPH_ANTUONO) != 0;
+  if (part->pairs)
+    part->terms |= fluid_corrections(part->terms | (sim->loop_terms & SPH_CORRECTED));
+  part->gradients = (part->rates & SPH_ANTUONO) || (part->terms & SPH_CORRECTED);
+  part->walls = whole || (part->terms & SPH_CORRECTED) || (part->pairs && meets_walls(sim, part));
   /* Of a wall that only viscosity or conduction sees, pressure and density count for nothing. */
   part->eos = (part->walls && ((part->rates & WALLS_READ_EOS) || part->tiles || part->shift)) ||
               (part->rates & READ_EOS) || (part->tile_fields & TILES_READ_EOS) || part->acoustic ||

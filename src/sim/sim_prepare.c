@@ -262,11 +262,16 @@ static int make_terms(sph_sim *sim)
   if (terms->shift.strength == 0) bits &= ~(unsigned)SPH_SHIFTING;
   if (terms->delta == 0) bits &= ~(unsigned)SPH_DIFFUSION;
   if (terms->drag_K == 0 && terms->drag_rate == 0) bits &= ~(unsigned)SPH_DRAG;
+  bits = (bits & ~(unsigned)SPH_CORRECTED) | fluid_corrections(bits);
   sim->loop_terms = bits;
   sim->constants = (fluid_constants){.terms = bits};
   sph_sim_prepare_h(sim);
   sim->needs_temperature = (bits & SPH_CONDUCTION) || sph_sim_implicit_heats(sim);
   int status = sph_sim_parts_make(sim);
+  if (!status && sim->part[SPH_WHOLE].tiles && terms->scalars && (bits & SPH_CORRECTED))
+    status = sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "corrected terms beside pair terms of your own with scalars: there is no "
+                          "room for both in the loops; right is correction none, or no scalar");
   if (!status && sim->has_integrator) status = sph_sim_fit(sim);
   sim->fluid_sums = bits & SPH_RARE ? SPH_FLUID_SUMS_ALL : SPH_FLUID_SUMS;
   if (sim->part[SPH_WHOLE].tiles) sim->fluid_sums = SPH_SUM_SCALAR + terms->scalars;
@@ -311,7 +316,7 @@ static int sums_of(const sph_sim *sim, const sph_group *group)
   if (group->model == SPH_MODEL_MIRROR) return 0; /* images are no targets */
   int sums = group->wall ? SPH_WALL_SUMS : sim->fluid_sums;
   if (group->model == SPH_MODEL_DBC) sums = SPH_FLUID_SUMS_ALL;
-  if (!group->wall && (sim->loop_terms & SPH_ANTUONO))
+  if (!group->wall && (sim->loop_terms & (SPH_ANTUONO | SPH_CORRECTED)))
     sums = sums > gradient_sums(sim->dim) ? sums : gradient_sums(sim->dim);
   if (!group->wall && (sim->loop_terms & SPH_SHIFTS)) {
     const int own = shift_concentration_sums(sim->dim);
@@ -475,6 +480,7 @@ int sph_sim_prepare(sph_sim *sim)
   if (!status) status = check_values(sim);
   if (!status) status = check_terms(sim);
   if (!status) status = check_walls(sim);
+  if (!status) status = sph_sim_reset_check(sim);
   if (!status) status = sph_sim_implicit_check(sim);
   if (!status) start_walls(sim);
   if (!status) status = make_terms(sim);

@@ -80,14 +80,17 @@ int sph_sim_rhs_fast(double t, N_Vector y, N_Vector ydot, void *ctx)
   return sph_sim_rhs_piece(SPH_PIECE_FAST, t, y, ydot, ctx);
 }
 
-int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y)
+static int show(sph_sim *sim, double t, N_Vector y, int anew)
 {
   sph_evaluation e = {.sim = sim, .t = t, .part = &sim->part[SPH_WHOLE]};
   sph_sim_rhs_views(&e, y, NULL);
   int status = sph_sim_walls_move(&e);
-  if (!status && !sim->listed) status = sph_sim_lists_update(&e);
+  if (!status && (anew || !sim->listed)) status = sph_sim_lists_update(&e);
   if (!status) status = sph_sim_density(&e);
   if (!status) status = sph_sim_material_eos(&e);
   if (!status) status = sph_sim_walls_fill(&e);
   return status;
 }
+
+int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y) { return show(sim, t, y, 0); }
+int sph_sim_rhs_show_anew(sph_sim *sim, double t, N_Vector y) { return show(sim, t, y, 1); }

@@ -19,6 +19,8 @@ typedef struct sph_evaluation {
 void sph_sim_rhs_views(sph_evaluation *e, N_Vector y, N_Vector ydot);
 /* Pressure, sound speed and walls of the state (t, y), with the lists as they are. */
 int sph_sim_rhs_show(sph_sim *sim, double t, N_Vector y);
+/* ... with the lists brought up to date. */
+int sph_sim_rhs_show_anew(sph_sim *sim, double t, N_Vector y);
 /* Any part of f; lists, records, pressures and walls are then those of (t, y). */
 int sph_sim_rhs_part(sph_sim *sim, const sph_part *part, double t, N_Vector y, N_Vector ydot);
 /* A part of f: enum sph_piece, or SPH_WHOLE. */
@@ -101,6 +103,8 @@ fluid_constants sph_sim_drag_constants(const sph_sim *sim, int target, int sourc
 int sph_sim_interaction_prepare(sph_sim *sim, sph_part *part);
 /* Before the run: masses that make the lattice sum the reference density. */
 void sph_sim_density_calibrate(sph_sim *sim);
+/* Does a density reset fit the terms? */
+int sph_sim_reset_check(sph_sim *sim);
 /* The simulation asks for a smaller step, for this reason. */
 int sph_sim_admit_retry(sph_sim *sim, const char *format, ...) SPH_PRINTF(2, 3);
 

@@ -70,6 +70,11 @@ sph_tangent *sph_sim_tangent_get(sph_sim *sim)
 {
   if (sim->error.status) return NULL;
   if (sim->tangent) return sim->tangent;
+  if (sim->loop_terms & SPH_CORRECTED) {
+    sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                 "no derivatives of terms whose gradients are corrected: right is correction none");
+    return NULL;
+  }
   if (sim->part[SPH_WHOLE].shift) {
     sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                  "no derivatives of a right-hand side with %s: it jumps where particles come to a "

@@ -31,15 +31,35 @@ enum {
   SPH_WALL = 32768,    /* the source is a wall, */
   SPH_NO_SLIP = 65536, /* and viscous terms see it */
   SPH_STRESS = 1 << 25,
+  /* Gradients of these terms are corrected: */
+  SPH_CONTINUITY_CORRECTED = 1 << 20,
+  SPH_PRESSURE_ONE_SIDED = 1 << 21,
+  SPH_PRESSURE_MEAN = 1 << 22,
+  SPH_LAMINAR_ONE_SIDED = 1 << 23,
+  SPH_LAMINAR_MEAN = 1 << 24,
+  SPH_PRESSURE_CORRECTED = SPH_PRESSURE_ONE_SIDED | SPH_PRESSURE_MEAN,
+  SPH_LAMINAR_CORRECTED = SPH_LAMINAR_ONE_SIDED | SPH_LAMINAR_MEAN,
+  SPH_CORRECTED = SPH_CONTINUITY_CORRECTED | SPH_PRESSURE_CORRECTED | SPH_LAMINAR_CORRECTED,
   SPH_DIFFUSION = SPH_MOLTENI | SPH_ANTUONO | SPH_FOURTAKAS,
   SPH_VISCOUS = SPH_ARTIFICIAL | SPH_SIGNAL | SPH_MORRIS | SPH_MCG,
   SPH_RARE = SPH_FORM_PHI | SPH_SIGNAL | SPH_MORRIS | SPH_MCG | SPH_FOURTAKAS | SPH_CONDUCTION |
-             SPH_XSPH | SPH_STRESS
+             SPH_XSPH | SPH_STRESS | SPH_CORRECTED
 };
 
-/* A record, in slots: x[dim] v[dim] rho p c V extra[dim] u T phi scalars.
+/* Corrections of those terms that are there. */
+BODY unsigned fluid_corrections(unsigned terms)
+{
+  unsigned corrections = terms & SPH_CORRECTED;
+  if (!(terms & SPH_CONTINUITY)) corrections &= ~(unsigned)SPH_CONTINUITY_CORRECTED;
+  if (!(terms & SPH_PRESSURE_FORCE)) corrections &= ~(unsigned)SPH_PRESSURE_CORRECTED;
+  if (!(terms & (SPH_MORRIS | SPH_MCG))) corrections &= ~(unsigned)SPH_LAMINAR_CORRECTED;
+  return corrections;
+}
+
+/* A record, in slots: x[dim] v[dim] rho p c V extra[dim] u T phi, then B or scalars of tiles.
  *   p: the pressure (C2), p/rho^2 (S) or phi p/rho^2;
- *   extra: <grad rho>^L of a fluid, the velocity that viscous terms see of a wall. */
+ *   extra: <grad rho>^L of a fluid, the velocity that viscous terms see of a wall;
+ *   B: the inverse gradient matrix of a fluid, its upper triangle by rows. */
 BODY int slot_v(int dim) { return dim; }
 BODY int slot_rho(int dim) { return 2 * dim; }
 BODY int slot_p(int dim) { return 2 * dim + 1; }
@@ -50,10 +70,13 @@ BODY int slot_u(int dim) { return 3 * dim + 4; }
 BODY int slot_T(int dim) { return 3 * dim + 5; }
 BODY int slot_phi(int dim) { return 3 * dim + 6; }
 BODY int slot_scalar(int dim) { return 3 * dim + 7; }
+BODY int slot_B(int dim) { return 3 * dim + 7; }
+BODY int fluid_B(int dim) { return dim * (dim + 1) / 2; } /* numbers of B */
 /* Slots of a record: as few as the terms read. */
 BODY int fluid_slots(int dim, unsigned terms, int scalars)
 {
   if (scalars) return slot_scalar(dim) + scalars;
+  if (terms & SPH_CORRECTED) return slot_B(dim) + fluid_B(dim);
   if (terms & SPH_FORM_PHI) return slot_phi(dim) + 1;
   if (terms & SPH_THERMAL) return slot_T(dim) + 1;
   return terms & (SPH_ANTUONO | SPH_WALL) ? 3 * dim + 4 : 2 * dim + 4;
@@ -104,6 +127,7 @@ typedef struct pair {
   vec r[3], r2, distance, rv;   /* r.v */
   vec v_viscous[3], rv_viscous; /* v, r.v as viscous terms see them: others at no-slip walls */
   vec F, VF, mF;                /* F, V_j F, m_j F */
+  vec stretch;                  /* e.B e, e = r/|r|, for the viscosity of fluids; or 1 */
   vec push;                     /* pressure acceleration of i so far: push * r */
   vec along_r,
       along_v; /* dissipative acceleration of i so far: along_r * r + along_v * v_viscous */
@@ -164,6 +188,7 @@ BODY pair fluid_pair_common(int dim, int kernel, unsigned terms, const fluid_con
   p.F = kernel_shape_f(kernel, dim, p.distance * k->inverse_h);
   p.VF = p.F * j->V;
   p.mF = p.VF * j->rho;
+  p.stretch = v_set(1);
   p.push = p.along_r = p.along_v = v_set(0);
   return p;
 }

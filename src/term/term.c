@@ -41,6 +41,12 @@ static const struct {
 };
 enum { TERMS = sizeof terms / sizeof *terms };
 
+sph_term sph_term_corrected(sph_term term, const char *correction)
+{
+  term.correction = correction;
+  return term;
+}
+
 const char *sph_term_name(int k) { return k >= 0 && k < TERMS ? terms[k].name : NULL; }
 
 const char *sph_term_formula(const char *name)

@@ -81,6 +81,12 @@ static void assign(sph_term_set *set, unsigned bits, int part)
   if (part == SPH_TERM_FAST) set->fast |= bits;
 }
 
+/* Are its gradients corrected? */
+static int corrected(const sph_term_set *set, int k)
+{
+  return (built_in[k].bits & (SPH_MORRIS | SPH_MCG)) && (set->bits & SPH_LAMINAR_CORRECTED);
+}
+
 /* As if no part had been set. */
 static int forget(sph_term_set *set)
 {
@@ -126,6 +132,11 @@ int sph_term_part_set(sph_term_set *set, const char *term, const char *part, sph
     if (strcmp(term, built_in[k].name) || !(bits_of(set) & built_in[k].bits)) continue;
     if (number == SPH_TERM_IMPLICIT && built_in[k].implicit == NEVER)
       return not_implicit(term, error);
+    if (number == SPH_TERM_IMPLICIT && corrected(set, k))
+      return sph_error_set(error, SPH_ERR_ARGUMENT,
+                           "%s of a correction cannot be implicit: its matrix knows no gradient "
+                           "matrices; right is correction none, or explicit",
+                           term);
     assign(set, built_in[k].bits, number);
     found = 1;
   }
@@ -146,7 +157,7 @@ int sph_term_part_set(sph_term_set *set, const char *term, const char *part, sph
 int sph_term_part_default(sph_term_set *set, sph_error *error)
 {
   for (int k = 0; !set->parted && k < BUILT_IN; k++)
-    if (built_in[k].implicit == DEFAULT)
+    if (built_in[k].implicit == DEFAULT && !corrected(set, k))
       assign(set, bits_of(set) & built_in[k].bits, SPH_TERM_IMPLICIT);
   return sph_term_part_first(set, SPH_TERM_IMPLICIT) ? SPH_OK : not_implicit("", error);
 }

@@ -36,6 +36,22 @@ static int add_form(sph_term_set *set, unsigned bit, const sph_term *term, const
   return claim(set, bit, term->name, error);
 }
 
+/* How its gradients are corrected; mean 0: that is not known of this term. */
+static int add_correction(sph_term_set *set, const sph_term *term, unsigned one_sided,
+                          unsigned mean, sph_error *error)
+{
+  const char *correction = term->correction ? term->correction : "none";
+  if (!strcmp(correction, "one-sided"))
+    set->bits |= one_sided;
+  else if (mean && !strcmp(correction, "mean"))
+    set->bits |= mean;
+  else if (strcmp(correction, "none") != 0)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term %s: correction \"%.60s\"; known: none, one-sided%s", term->name,
+                         correction, mean ? ", mean" : "");
+  return SPH_OK;
+}
+
 static int is_finite(const sph_term *term, const char *name, double value, sph_error *error)
 {
   if (isfinite(value)) return SPH_OK;
@@ -47,6 +63,7 @@ static int add_continuity(sph_term_set *set, const sph_term *term, sph_error *er
 {
   int status = is_finite(term, "exponent", term->exponent, error);
   if (!status) status = add_form(set, SPH_CONTINUITY, term, "c1", error);
+  if (!status) status = add_correction(set, term, SPH_CONTINUITY_CORRECTED, 0, error);
   if (!status && set->summed)
     status = sph_error_set(error, SPH_ERR_ARGUMENT, "term continuity: density is summed already");
   if (!status && set->form_phi & SPH_CONTINUITY) {
@@ -106,7 +123,9 @@ static int add_laminar(sph_term_set *set, const sph_term *term, sph_error *error
                          "term viscosity-laminar: form \"%s\"; known: morris, mcg", form);
   if (set->bits & (SPH_MORRIS | SPH_MCG))
     return sph_error_set(error, SPH_ERR_ARGUMENT, "term viscosity-laminar: added twice");
-  return claim(set, bit, term->name, error);
+  int status = claim(set, bit, term->name, error);
+  return status ? status
+                : add_correction(set, term, SPH_LAMINAR_ONE_SIDED, SPH_LAMINAR_MEAN, error);
 }
 
 static int add_xsph(sph_term_set *set, const sph_term *term, sph_error *error)
@@ -171,7 +190,9 @@ static int add_transport(sph_term_set *set, const sph_term *term, sph_error *err
 
 static int add_pressure(sph_term_set *set, const sph_term *term, sph_error *error)
 {
-  return add_form(set, SPH_PRESSURE_FORCE, term, "s", error);
+  int status = add_form(set, SPH_PRESSURE_FORCE, term, "s", error);
+  return status ? status
+                : add_correction(set, term, SPH_PRESSURE_ONE_SIDED, SPH_PRESSURE_MEAN, error);
 }
 
 static int add_conduction(sph_term_set *set, const sph_term *term, sph_error *error)
@@ -308,7 +329,7 @@ static int add_called(sph_term_set *set, const sph_term *term, sph_error *error)
   kept->term.reads = term->reads ? kept->reads : NULL;
   snprintf(kept->adds, sizeof kept->adds, "%s", term->adds ? term->adds : "");
   kept->term.adds = term->adds ? kept->adds : NULL;
-  kept->term.form = NULL;
+  kept->term.form = kept->term.correction = NULL;
   sph_term_part_changes(term, &kept->changes, error);
   kept->term.implicit = NULL; /* as read in changes */
   kept->scalar = term->scalar.name ? keep_scalar(set, &term->scalar) : -1;
@@ -343,8 +364,17 @@ static int add(sph_term_set *set, const sph_term *term, sph_error *error)
       {"transport-velocity", add_transport},
       {"stress-artificial", add_stress},
   };
+  static const char *const corrected[] = {"continuity", "pressure", "viscosity-laminar"};
+  int can = 0;
   if (!term->name || !*term->name)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "a term without a name");
+  for (int k = 0; k < 3; k++) can |= !strcmp(term->name, corrected[k]);
+  if (term->correction && strcmp(term->correction, "none") != 0 &&
+      (!can || term->body || term->pair))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term %s: correction \"%.60s\"; only continuity, pressure and "
+                         "viscosity-laminar have one",
+                         term->name, term->correction);
   for (size_t k = 0; !term->body && !term->pair && k < sizeof built_in / sizeof *built_in; k++)
     if (!strcmp(term->name, built_in[k].name)) return built_in[k].add(set, term, error);
   return add_called(set, term, error);
@@ -421,6 +451,26 @@ int sph_term_set_change(sph_term_set *set, const sph_term *term, sph_error *erro
                        name);
 }
 
+/* Continuity and pressure force are partners in their corrections, too. */
+static int check_corrections(const sph_term_set *set, sph_error *error)
+{
+  const unsigned bits = set->bits;
+  const int pressure = (bits & SPH_PRESSURE_FORCE) != 0, mean = (bits & SPH_PRESSURE_MEAN) != 0;
+  if (set->summed && mean)
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term pressure: correction mean belongs to continuity of correction "
+                         "one-sided; beside summation right is none or one-sided");
+  if (pressure && !(bits & SPH_PRESSURE_ONE_SIDED) && (bits & SPH_CONTINUITY) &&
+      mean != ((bits & SPH_CONTINUITY_CORRECTED) != 0))
+    return sph_error_set(
+        error, SPH_ERR_ARGUMENT,
+        "continuity of correction %s and pressure of correction %s do not conserve "
+        "energy: use one-sided with mean, none with none (pressure of correction "
+        "one-sided conserves none, and goes with both)",
+        bits & SPH_CONTINUITY_CORRECTED ? "one-sided" : "none", mean ? "mean" : "none");
+  return SPH_OK;
+}
+
 int sph_term_set_check(const sph_term_set *set, sph_error *error)
 {
   int forms = (set->form_c2 != 0) + (set->form_c1 != 0) + (set->form_phi != 0);
@@ -435,7 +485,7 @@ int sph_term_set_check(const sph_term_set *set, sph_error *error)
     return sph_error_set(error, SPH_ERR_ARGUMENT,
                          "term delta diffuses a density that is integrated; summation has none: "
                          "leave one of them out");
-  return SPH_OK;
+  return check_corrections(set, error);
 }
 
 void sph_term_set_free(sph_term_set *set)

@@ -88,10 +88,13 @@ static void add_row(sph_sim *sim, const variant *v)
   static const char *const form[] = {"c2", "s", "phi"};
   sph_term continuity = sph_term_continuity_phi(0.5);
   continuity.phi = own_phi, continuity.ctx = &let_go[FIELD], continuity.free = count;
-  sph_sim_add_term(sim, v->row == C2       ? sph_term_continuity()
+  sph_sim_add_term(sim, v->row == C2       ? sph_term_corrected(sph_term_continuity(),
+                                                          v->thermal ? "one-sided" : NULL)
                         : v->row == SUMMED ? sph_term_summation(1)
                                            : continuity);
-  sph_sim_add_term(sim, sph_term_pressure_form(form[v->row]));
+  const int corrected = v->row == C2 && v->thermal;
+  sph_sim_add_term(sim, sph_term_corrected(sph_term_pressure_form(form[v->row]),
+                                           corrected ? "mean" : NULL));
 }
 
 static void add_heat(sph_sim *sim, sph_group *water, const variant *v)
@@ -147,8 +150,9 @@ static int wrote(void *ctx, sph_sim *sim)
 }
 
 /* Events that look at all there is, one that happens, and what comes between steps. */
-static void add_moments(sph_sim *sim)
+static void add_moments(sph_sim *sim, const variant *v)
 {
+  if (v->row != SUMMED) sph_sim_reset_density(sim, v->thermal ? "shepard" : "mls", 2);
   sph_sim_add_event(sim, &(sph_event){.name = "own",
                                       .value = moment,
                                       .change = happens,
@@ -222,7 +226,7 @@ static int attach_and_run(sph_sim *sim, const variant *v)
   sph_sim_set_integrator(sim, &(sph_integrator_def){.method = v->method});
   sph_sim_add_output(sim, (sph_output){"nothing", 0.002, .frame = frame, .ctx = &let_go[OUTPUT],
                                        .free = count});
-  add_moments(sim);
+  add_moments(sim, v);
   long n = sph_group_count(water);
   double *u = v->thermal || v->energy ? sph_group_write(water, "energy", 0) : NULL;
   for (long i = 0; u && i < n; i++) u[i] = 100;

@@ -306,6 +306,47 @@ static void gradient(oracle *o, long i)
   }
 }
 
+/* ---- B = M^-1 of terms whose gradients are corrected, M as above but over all of the species;
+ *   1 where the smallest eigenvalue of M is below 0.2 ---- */
+
+static int corrected(const oracle *o)
+{
+  return o->continuity_corrected || o->pressure_corrected || o->laminar_corrected;
+}
+
+static void inverse(oracle *o, long i)
+{
+  oracle_particle *it = &o->particle[i];
+  real m[3][3] = {{0}}, q[3][3], size = 0, smallest = INFINITY;
+  pair ij;
+  for (long j = 0; j < o->n; j++) {
+    const oracle_particle *other = &o->particle[j];
+    if (j == i || !near(o, i, j, &ij) || !same_species(o, i, j)) continue;
+    real volume = other->m / other->rho;
+    for (int r = 0; r < 3; r++)
+      for (int c = 0; c < 3; c++) m[r][c] -= volume * ij.d[r] * ij.d[c] * ij.f;
+    size += volume * ij.r * ij.grad * other->condition;
+  }
+  eigen(m, q);
+  for (int e = 0; e < o->dim; e++)
+    if (m[e][e] < smallest) smallest = m[e][e];
+  it->B_size = 1;
+  for (int r = 0; r < 3; r++)
+    for (int c = 0; c < 3; c++) it->B[r][c] = r == c;
+  if (smallest < 0.2L) return;
+  it->B_size = 1 / smallest + size / (smallest * smallest);
+  for (int r = 0; r < o->dim; r++)
+    for (int c = 0; c < o->dim; c++) {
+      it->B[r][c] = 0;
+      for (int e = 0; e < o->dim; e++) it->B[r][c] += q[r][e] * q[c][e] / m[e][e];
+    }
+}
+
+static void times(const oracle_particle *i, const real a[3], real out[3])
+{
+  for (int r = 0; r < 3; r++) out[r] = i->B[r][0] * a[0] + i->B[r][1] * a[1] + i->B[r][2] * a[2];
+}
+
 /* ---- pair terms: what j adds to i ---- */
 
 /* C1:  drho = sum m_j v_ij.grad W,          a = - sum m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W,
@@ -314,7 +355,9 @@ static void gradient(oracle *o, long i)
  *      du = p_i/rho_i sum V_j v_ij.grad W
  * phi: drho = phi_i sum m_j/phi_j v_ij.grad W,
  *      a = - sum m_j (p_i/rho_i^2 phi_i/phi_j + p_j/rho_j^2 phi_j/phi_i) grad W,
- *      du = p_i/rho_i^2 phi_i sum m_j/phi_j v_ij.grad W */
+ *      du = p_i/rho_i^2 phi_i sum m_j/phi_j v_ij.grad W
+ * Corrected: drho and du with B_i grad W; mean: p_i times B_i grad W and p_j times B_j grad W;
+ * one-sided, of no row: a = - 1/rho_i sum V_j (p_j - p_i) B_i grad W.  A wall has B of i. */
 static real density_factor(enum oracle_row row, const oracle_particle *i, const oracle_particle *j)
 {
   if (row == ORACLE_C1) return j->m;
@@ -328,13 +371,36 @@ static real pressure_factor(enum oracle_row row, const oracle_particle *i, const
   return row == ORACLE_C2 ? 1 / (i->rho * j->rho) : i->phi / (i->rho * i->rho * j->phi);
 }
 
-static void compression(const oracle *o, oracle_particle *i, const oracle_particle *j,
-                        const pair *ij)
+static void corrected_pressure(const oracle *o, int j_is_wall, oracle_particle *i,
+                               const oracle_particle *j, const pair *ij)
 {
+  real of_i = i->p * pressure_factor(o->pressure, i, j), size, grad_i[3], grad_j[3];
+  real of_j = j->p * pressure_factor(o->pressure, j, i);
+  times(i, ij->grad_w, grad_i);
+  times(j_is_wall ? i : j, ij->grad_w, grad_j);
+  size = i->p_size * pressure_factor(o->pressure, i, j) * i->B_size +
+         j->p_size * pressure_factor(o->pressure, j, i) * (j_is_wall ? i : j)->B_size;
+  if (o->pressure_corrected == ORACLE_ONE_SIDED) {
+    of_i = (j->p - i->p) / (j->rho * i->rho), of_j = 0;
+    size = (j->p_size + i->p_size) / (j->rho * i->rho) * i->B_size;
+  }
+  for (int k = 0; k < 3; k++) i->a[k] -= j->m * (of_i * grad_i[k] + of_j * grad_j[k]);
+  i->a_size += j->m * size * ij->grad * i->condition * j->condition;
+}
+
+static void compression(const oracle *o, int j_is_wall, oracle_particle *i,
+                        const oracle_particle *j, const pair *ij)
+{
+  const int dust = o->group[i->group].dust;
   real v[3];
   difference(i->v, j->v, v);
   real rate = dot(v, ij->grad_w), condition = i->condition * j->condition;
   real size = (norm(i->v) + norm(j->v)) * ij->grad * condition;
+  if (o->continuity_corrected && !dust) {
+    real grad[3];
+    times(i, ij->grad_w, grad);
+    rate = dot(v, grad), size *= i->B_size;
+  }
   if (o->continuity != ORACLE_NONE && !o->summed) {
     real factor = density_factor(o->continuity, i, j);
     i->drho += factor * rate, i->drho_size += factor * size;
@@ -342,8 +408,12 @@ static void compression(const oracle *o, oracle_particle *i, const oracle_partic
   if (o->pressure == ORACLE_NONE) return;
   real of_i = pressure_factor(o->pressure, i, j), of_j = pressure_factor(o->pressure, j, i);
   real both = i->p * of_i + j->p * of_j, both_size = i->p_size * of_i + j->p_size * of_j;
-  for (int k = 0; k < 3; k++) i->a[k] -= j->m * both * ij->grad_w[k];
-  i->a_size += j->m * both_size * ij->grad * condition;
+  if (o->pressure_corrected && !dust)
+    corrected_pressure(o, j_is_wall, i, j, ij);
+  else {
+    for (int k = 0; k < 3; k++) i->a[k] -= j->m * both * ij->grad_w[k];
+    i->a_size += j->m * both_size * ij->grad * condition;
+  }
   real per_p = density_factor(o->pressure, i, j) / (i->rho * i->rho);
   i->work += per_p * rate, i->work_size += per_p * size; /* times p, or T dp/dT */
 }
@@ -389,13 +459,28 @@ static real regular(const oracle *o, const pair *ij)
   return o->kernel == ORACLE_SPIKY ? r2 / (r2 + o->h * o->h / 100) : 1;
 }
 
+/* e.B e, B of i or the mean, e = r_ij/r; its size over it. */
+static real stretch(const oracle *o, const oracle_particle *i, const oracle_particle *j,
+                    const pair *ij, real *condition)
+{
+  real of_i[3], of_j[3], both, size = i->B_size;
+  times(i, ij->d, of_i);
+  times(j, ij->d, of_j);
+  both = dot(of_i, ij->d);
+  if (o->laminar_corrected == ORACLE_PLAIN || ij->r == 0) return 1;
+  if (o->laminar_corrected == ORACLE_MEAN) both = (both + dot(of_j, ij->d)) / 2, size += j->B_size;
+  *condition = size * ij->r * ij->r / both;
+  return both / (ij->r * ij->r);
+}
+
 /* Morris (1997):  a = sum m_j (eta_i + eta_j)/(rho_i rho_j) F v_ij;
  * Monaghan, Cleary & Gingold:  a = 2 (d + 2) sum m_j 2 eta_i eta_j/(eta_i + eta_j)/(rho_i rho_j)
  *   (v_ij.r)/r^2 grad W;  both heat by half of their work.  A wall has the viscosity of i. */
-static void laminar(const oracle *o, real eta_i, real eta_j, oracle_particle *i,
+static void laminar(const oracle *o, real eta_i, real eta_j, int j_is_wall, oracle_particle *i,
                     const oracle_particle *j, const pair *ij)
 {
-  real v[3], force[3], per_mass = j->m / (i->rho * j->rho) * regular(o, ij);
+  real v[3], force[3], per_mass = j->m / (i->rho * j->rho) * regular(o, ij), condition = 1;
+  per_mass *= stretch(o, i, j_is_wall ? i : j, ij, &condition);
   real speed = norm(i->v_viscous) + norm(j->v_viscous), size;
   difference(i->v_viscous, j->v_viscous, v);
   if (o->laminar == ORACLE_MORRIS) {
@@ -409,9 +494,10 @@ static void laminar(const oracle *o, real eta_i, real eta_j, oracle_particle *i,
     size = factor * speed * ij->r * ij->grad;
   }
   for (int k = 0; k < 3; k++) i->a[k] += force[k];
-  i->a_size += size * i->condition * j->condition;
+  condition *= i->condition * j->condition;
+  i->a_size += size * condition;
   i->heat -= dot(force, v) / 2;
-  i->heat_size += size * speed / 2 * i->condition * j->condition;
+  i->heat_size += size * speed / 2 * condition;
 }
 
 /* Cleary & Monaghan (1999):
@@ -542,12 +628,12 @@ static void pair_rates(oracle *o, long i, long j, const pair *ij)
     if (o->drag && !wall_j && own->dust != theirs->dust) drag(o, own->dust, it, other, ij);
     return;
   }
-  compression(o, it, other, ij);
+  compression(o, wall_j, it, other, ij);
   if (own->dust) return;
   if (viscous) viscosity(o, it, other, ij);
   if (viscous && o->signal_alpha > 0) signal_viscosity(o, it, other, ij);
   if (viscous && o->laminar != ORACLE_INVISCID)
-    laminar(o, own->viscosity, wall_j ? own->viscosity : theirs->viscosity, it, other, ij);
+    laminar(o, own->viscosity, wall_j ? own->viscosity : theirs->viscosity, wall_j, it, other, ij);
   if (o->conductivity > 0 && !wall_j) conductivity(o, it, other, ij);
   if (o->conduction && (!wall_j || theirs->temperature > 0)) {
     real k_j = wall_j && theirs->conductivity <= 0 ? own->conductivity : theirs->conductivity;
@@ -582,6 +668,8 @@ void oracle_evaluate(oracle *o)
     if (is_wall(o, i)) wall(o, i);
   for (long i = 0; i < o->n; i++)
     if (!is_wall(o, i) && !is_dust(o, i)) gradient(o, i);
+  for (long i = 0; i < o->n && corrected(o); i++)
+    if (!is_wall(o, i) && !is_dust(o, i)) inverse(o, i);
   for (long i = 0; i < o->n; i++)
     if (!is_wall(o, i)) rates(o, i);
 }

@@ -43,10 +43,12 @@ typedef struct oracle_particle {
   real T;            /* what conduction sees [K] */
   real phi;          /* of the row of that name */
   real gradient[3];  /* <grad rho>^L [kg/m^4] */
+  real B[3][3];      /* inverse gradient matrix, or 1 */
   real dx[3], a[3], drho;
   real du;                        /* rate of the energy that is integrated */
   real work, heat;                /* by compression, by all else [W/kg] */
   real p_size, condition, T_size; /* condition: of rho */
+  real B_size;                    /* of each of its numbers */
   real gradient_size, dx_size, a_size, drho_size, du_size, work_size, heat_size;
 } oracle_particle;
 
@@ -64,6 +66,7 @@ enum { ORACLE_KERNELS = ORACLE_SPIKY + 1 };
 enum { ORACLE_GROUPS = 6 };
 enum oracle_row { ORACLE_NONE, ORACLE_C1, ORACLE_C2, ORACLE_PHI }; /* density and its partners */
 enum oracle_delta { ORACLE_OFF, ORACLE_MOLTENI, ORACLE_ANTUONO, ORACLE_FOURTAKAS };
+enum oracle_correction { ORACLE_PLAIN, ORACLE_ONE_SIDED, ORACLE_MEAN };
 enum oracle_laminar { ORACLE_INVISCID, ORACLE_MORRIS, ORACLE_MCG };
 /* What is integrated; of a liquid: carried along, heated, not compressed. */
 enum oracle_energy {
@@ -81,6 +84,7 @@ typedef struct oracle {
   int periodic[3];
   real length[3]; /* [m] */
   enum oracle_row continuity, pressure;
+  enum oracle_correction continuity_corrected, pressure_corrected, laminar_corrected;
   real exponent; /* of the row phi: phi = rho^exponent */
   int summed;    /* density is a sum, not integrated: then continuity is ORACLE_C1 */
   enum oracle_energy energy;

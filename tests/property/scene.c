@@ -229,17 +229,23 @@ static void add_group(scene *s, sph_sim *sim, int g)
   sph_group_set_boundary(group, boundary);
 }
 
+static const char *const corrections[] = {NULL, "one-sided", "mean"};
+
 static void add_rows(const oracle *o, sph_sim *sim)
 {
   static const char *const continuity[] = {NULL, "c1", "c2"}, *const pressure[] = {NULL, "s", "c2",
                                                                                    "phi"};
   if (o->summed)
     sph_sim_add_term(sim, sph_term_summation(0));
-  else if (o->continuity == ORACLE_PHI)
-    sph_sim_add_term(sim, sph_term_continuity_phi((double)o->exponent));
-  else if (o->continuity)
-    sph_sim_add_term(sim, sph_term_continuity_form(continuity[o->continuity]));
-  if (o->pressure) sph_sim_add_term(sim, sph_term_pressure_form(pressure[o->pressure]));
+  else if (o->continuity) {
+    sph_term term = o->continuity == ORACLE_PHI
+                        ? sph_term_continuity_phi((double)o->exponent)
+                        : sph_term_continuity_form(continuity[o->continuity]);
+    sph_sim_add_term(sim, sph_term_corrected(term, corrections[o->continuity_corrected]));
+  }
+  if (o->pressure)
+    sph_sim_add_term(sim, sph_term_corrected(sph_term_pressure_form(pressure[o->pressure]),
+                                             corrections[o->pressure_corrected]));
 }
 
 static void add_terms(const oracle *o, sph_sim *sim)
@@ -252,7 +258,9 @@ static void add_terms(const oracle *o, sph_sim *sim)
     sph_sim_add_term(sim,
                      sph_term_viscosity_signal((double)o->signal_alpha, (double)o->signal_beta));
   if (o->laminar)
-    sph_sim_add_term(sim, sph_term_viscosity_laminar(o->laminar == ORACLE_MCG ? "mcg" : "morris"));
+    sph_sim_add_term(sim, sph_term_corrected(sph_term_viscosity_laminar(
+                                                 o->laminar == ORACLE_MCG ? "mcg" : "morris"),
+                                             corrections[o->laminar_corrected]));
   if (o->conductivity > 0)
     sph_sim_add_term(sim, sph_term_conductivity_artificial((double)o->conductivity));
   if (o->conduction) sph_sim_add_term(sim, sph_term_conduction());

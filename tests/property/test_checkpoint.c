@@ -58,7 +58,7 @@ static int less_gravity(void *ctx, sph_sim *sim)
   return SPH_OK;
 }
 
-static void add_events(sph_sim *sim, memory *m)
+static void add_events(sph_sim *sim, const variant *v, memory *m)
 {
   sph_sim_add_event(sim, &(sph_event){.name = "early",
                                       .type = "time",
@@ -69,6 +69,7 @@ static void add_events(sph_sim *sim, memory *m)
   sph_sim_add_event(
       sim, &(sph_event){.name = "moving", .type = "energy", .quantity = "kinetic", .threshold = 1});
   sph_sim_add_modifier(sim, (sph_modifier){.name = "damp", .steps = 7, .modify = damp, .ctx = m});
+  if (!(v->wants & SPH_WANTS_SEPARABLE)) sph_sim_reset_density(sim, "mls", 5);
   sph_sim_keep_add(sim, (sph_kept){.name = "damping", .keep = keep_memory, .ctx = m});
 }
 
@@ -104,7 +105,7 @@ static sph_sim *make(const variant *v, int threads, const char *directory, memor
   add_terms(sim, water, v);
   sph_sim_set_integrator(sim, &v->integrator);
   *m = (memory){0};
-  if (v->events) add_events(sim, m);
+  if (v->events) add_events(sim, v, m);
   if (directory && v->outputs) {
     sph_sim_add_output(sim, sph_output_hdf5(directory, 0.011));
     sph_sim_add_output(sim, sph_output_series(directory, v->integrator.method[0] == 'l' ? 0 : 0.007,

@@ -105,6 +105,7 @@ static void signal_viscosity(void **state)
 static void any_laminar(oracle *o, int k)
 {
   o->laminar = k % 2 ? ORACLE_MORRIS : ORACLE_MCG;
+  o->laminar_corrected = (enum oracle_correction)(k / 2 % 3);
   if (k % 3 == 0) o->continuity = o->pressure = ORACLE_C1;
 }
 static void laminar_viscosity(void **state)
@@ -191,6 +192,30 @@ static void drag_of_dust(void **state)
   print_message("# largest error: %.2g of size\n", worst);
 }
 
+/* Corrected gradients: each form, rows, fluids of two kinds, dust beside them. */
+static void any_correction(oracle *o, int k)
+{
+  static const enum oracle_row row[] = {ORACLE_C2, ORACLE_C1, ORACLE_PHI};
+  o->continuity = o->pressure = row[k / 2 % 3];
+  o->exponent = 0.5L;
+  o->pressure_corrected = (enum oracle_correction)(1 + k % 2);
+  o->continuity_corrected = k % 4 ? ORACLE_ONE_SIDED : ORACLE_PLAIN;
+  if (o->pressure_corrected == ORACLE_MEAN) o->continuity_corrected = ORACLE_ONE_SIDED;
+  o->laminar = k / 3 % 2 ? ORACLE_MORRIS : ORACLE_MCG;
+  o->laminar_corrected = (enum oracle_correction)(k % 3);
+  if (o->group[0].eos.kind != ORACLE_IDEAL_GAS && k % 3 == 1)
+    o->diffusion = ORACLE_ANTUONO, o->delta = 0.1;
+  if (k % 5 == 1) o->alpha = 0.3;
+}
+static void corrected_gradients(void **state)
+{
+  (void)state;
+  run(0, 0, any_correction);
+  run(2, 1, any_correction);
+  for (int k = 0; k < 6; k++) check(k, 0, 1 + k % 2, 1, any_correction);
+  print_message("# with dust: %.2g of size\n", worst);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -200,6 +225,7 @@ int main(void)
       cmocka_unit_test(energies_of_gases),   cmocka_unit_test(summed_liquids),
       cmocka_unit_test(summed_gases),        cmocka_unit_test(drift),
       cmocka_unit_test(fourtakas),           cmocka_unit_test(drag_of_dust),
+      cmocka_unit_test(corrected_gradients),
   };
   return cmocka_run_group_tests_name("terms", tests, NULL, NULL);
 }
