@@ -24,7 +24,7 @@
 #include "sphode/neighbors.h"
 #include "sphode/simd.h"
 
-enum { SPH_PAIR_SLOTS = 24, SPH_PAIR_SUMS = 18 };
+enum { SPH_PAIR_SLOTS = 26, SPH_PAIR_SUMS = 18 };
 
 typedef struct sph_pair_task {
   const double *target; /* [blocks * lanes][target_stride] records; those past the last target: any
@@ -50,18 +50,18 @@ BODY void sph_pair_loop(sph_pair_body *body, const sph_pair_task *t, long begin,
     if (t->first[b] == t->first[b + 1]) continue;
     vec home[SPH_PAIR_SLOTS], sum[SPH_PAIR_SUMS];
     const double *record = t->target + b * SPH_LANES * t->target_stride;
-#pragma GCC unroll 24
+#pragma GCC unroll 26
     for (int s = 0; s < slots; s++) home[s] = v_gather(record + s, t->target_stride);
 #pragma GCC unroll 18
     for (int s = 0; s < sums; s++) sum[s] = v_load(t->sum[s] + b * SPH_LANES);
     for (long r = t->first[b]; r < t->first[b + 1]; r++) {
       const sph_run run = t->runs[r];
       vec i[SPH_PAIR_SLOTS], j[SPH_PAIR_SLOTS];
-#pragma GCC unroll 24
+#pragma GCC unroll 26
       for (int s = 0; s < slots; s++) i[s] = s < dim ? home[s] - t->shift[run.image][s] : home[s];
       const double *source = t->source + (long)run.start * t->source_stride;
       for (int n = 0; n < (int)run.count; n++, source += t->source_stride) {
-#pragma GCC unroll 24
+#pragma GCC unroll 26
         for (int s = 0; s < slots; s++) j[s] = v_set(source[s]);
         body(dim, t->constants, i, j, sum);
       }

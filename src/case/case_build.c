@@ -315,6 +315,12 @@ static sph_term transport(const sph_case_node *map)
   return term;
 }
 
+static sph_term switched(const sph_case_node *map, sph_term viscosity)
+{
+  return sph_term_switched(viscosity, get_text(map, "switch", NULL),
+                           get_number(map, "alpha_min", 0));
+}
+
 static sph_term plain_term(const sph_case_node *map)
 {
   const char *name = map->key, *form = get_text(map, "form", NULL);
@@ -326,7 +332,7 @@ static sph_term plain_term(const sph_case_node *map)
   }
   if (!strcmp(name, "summation")) return sph_term_summation(get_number(map, "calibrate", 1) != 0);
   if (!strcmp(name, "viscosity-signal"))
-    return sph_term_viscosity_signal(alpha, get_number(map, "beta", 0));
+    return switched(map, sph_term_viscosity_signal(alpha, get_number(map, "beta", 0)));
   if (!strcmp(name, "viscosity-laminar")) return sph_term_viscosity_laminar(form);
   if (!strcmp(name, "conduction")) return sph_term_conduction();
   if (!strcmp(name, "xsph")) return sph_term_xsph(get_number(map, "epsilon", 0));
@@ -336,7 +342,7 @@ static sph_term plain_term(const sph_case_node *map)
     return sph_term_stress_artificial(alpha, get_number(map, "beta", 0));
   if (!strcmp(name, "pressure")) return sph_term_pressure_form(form);
   if (!strcmp(name, "viscosity-artificial"))
-    return sph_term_viscosity_artificial(alpha, get_number(map, "beta", 0));
+    return switched(map, sph_term_viscosity_artificial(alpha, get_number(map, "beta", 0)));
   if (!strcmp(name, "conductivity-artificial")) return sph_term_conductivity_artificial(alpha);
   if (!strcmp(name, "delta"))
     return sph_term_delta(get_text(map, "model", NULL), get_number(map, "delta", 0));

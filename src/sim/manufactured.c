@@ -252,9 +252,11 @@ int sph_manufactured_error_of(const sph_group *group, const char *field,
                         "pressure",
                         field);
   const int n = k ? 1 : group->dim, first = k ? RHO + k - 1 : V;
-  for (int d = 0; d < group->dim; d++) x[d] = sph_group_read(group, "position", d);
-  for (int c = 0; c < n; c++) value[c] = sph_group_read(group, names[k], c);
-  if (!sph_sim_data_ok(group->sim)) return group->sim->error.status;
+  int read = 1;
+  for (int d = 0; d < group->dim; d++)
+    read &= (x[d] = sph_group_read(group, "position", d)) != NULL;
+  for (int c = 0; c < n; c++) read &= (value[c] = sph_group_read(group, names[k], c)) != NULL;
+  if (!read || !sph_sim_data_ok(group->sim)) return sph_sim_status(group->sim);
   *error = (sph_manufactured_error){0};
   for (long i = 0; i < group->n; i++) {
     const double e = distance(s, sph_sim_time(group->sim), x, value, i, first, n);

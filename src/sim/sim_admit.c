@@ -49,6 +49,7 @@ static void count(sph_evaluation *e)
 /* What one group's rates say. */
 typedef struct extremes {
   double v2, a2, speed; /* max v^2, max a^2, max of c signal + |v| */
+  double alpha;         /* of the artificial viscosities: the largest that acts */
   double lightest;      /* min rho */
   long bad;             /* particles with a rate that is not finite */
 } extremes;
@@ -69,11 +70,18 @@ static double damping(const sph_sim *sim, unsigned terms)
               terms & SPH_SIGNAL ? sim->terms.signal_alpha : 0);
 }
 
+/* The alpha of each particle, where a switch varies it; else NULL. */
+static const double *varied(const sph_evaluation *e, const sph_view *view)
+{
+  const int q = sph_term_set_alpha(&e->sim->terms);
+  return q >= 0 && (e->part->limit_terms & (SPH_ARTIFICIAL | SPH_SIGNAL)) ? view->s[q] : NULL;
+}
+
 /* Speed of what goes with that of sound, over it.  Density diffuses with delta h c, at rates of up
  * to 6.9 delta c/h (lattices): within 0.8 S h/c tables damp S or more. */
-static double signal_of(const sph_sim *sim, const sph_part *part)
+static double signal_of(const sph_sim *sim, const sph_part *part, double alpha)
 {
-  const double waves = part->acoustic + 0.6 * damping(sim, part->limit_terms);
+  const double waves = part->acoustic + 0.6 * alpha;
   return fmax(waves, part->limit_terms & SPH_DIFFUSION ? 5.5 * sim->terms.delta : 0);
 }
 
@@ -87,27 +95,31 @@ static extremes look(const sph_evaluation *e, const sph_group *group, const sph_
 {
   const sph_sim *sim = e->sim;
   const int motion = e->part->motion;
-  double v2_max = 0, a2_max = 0, speed_max = 0, volume_max = 0;
-  double sound = signal_of(sim, e->part);
+  const double *alpha = varied(e, view), all = damping(sim, e->part->limit_terms);
+  double v2_max = 0, a2_max = 0, speed_max = 0, volume_max = 0, alpha_max = alpha ? 0 : all;
+  const double sound_all = signal_of(sim, e->part, all);
   double least = e->part->limit_terms & SPH_SHIFTS ? shifting(sim, group) : 0;
   long bad = 0, n = view->n;
 #pragma omp parallel for num_threads(sim->threads) schedule(static)                                \
-    reduction(max : v2_max, a2_max, speed_max, volume_max) reduction(+ : bad) if (n > PARALLEL_MIN)
+    reduction(max : v2_max, a2_max, speed_max, volume_max, alpha_max) reduction(+ : bad)           \
+    if (n > PARALLEL_MIN)
   for (long i = 0; i < n; i++) {
     double v2 = 0, a2 = 0;
     for (int d = 0; d < sim->dim; d++) {
       v2 += view->v[d][i] * view->v[d][i];
       a2 += view->dv[d][i] * view->dv[d][i];
     }
+    const double sound = alpha ? signal_of(sim, e->part, alpha[i]) : sound_all;
     double speed = (sound > 0 ? view->c[i] * sound : 0) + motion * sqrt(v2);
     speed = speed > least ? speed : least;
+    if (alpha && alpha[i] > alpha_max) alpha_max = alpha[i];
     v2_max = v2 > v2_max ? v2 : v2_max;
     a2_max = a2 > a2_max ? a2 : a2_max;
     speed_max = speed > speed_max ? speed : speed_max;
     volume_max = 1 / view->rho[i] > volume_max ? 1 / view->rho[i] : volume_max;
     bad += !(a2 + v2 + others(sim, view, i) < INFINITY);
   }
-  return (extremes){v2_max, a2_max, speed_max, 1 / volume_max, bad};
+  return (extremes){v2_max, a2_max, speed_max, alpha_max, 1 / volume_max, bad};
 }
 
 /* A gas may meet itself head on: its approach speed is up to 2 max |v|. */
@@ -118,6 +130,7 @@ static double slowest(const sph_evaluation *e, const sph_group *group, const ext
   double beta = fmax(terms & SPH_ARTIFICIAL ? sim->terms.beta : 0,
                      terms & SPH_SIGNAL ? sim->terms.signal_beta / 2 : 0);
   double speed = x->speed;
+  if (sph_term_set_alpha(&sim->terms) >= 0) beta *= x->alpha / sph_term_set_alpha_max(&sim->terms);
   if (group->eos.thermal) speed += (e->part->motion + 1.2 * beta) * sqrt(x->v2);
   return sim->h_sound / speed; /* no speed: no limit */
 }
@@ -172,6 +185,7 @@ int sph_sim_admit(sph_evaluation *e)
     if (x.a2 > 0) lower(&limit[SPH_BOUND_FORCE], 0.25 * sqrt(sim->h / sqrt(x.a2)));
   }
   limit[SPH_BOUND_DRAG] = drag(e);
+  if (e->switch_rate > 0) limit[SPH_BOUND_SWITCH] = 1 / e->switch_rate;
   /* Else they stay those of the last good evaluation. */
   if (part == &sim->part[SPH_PIECE_FAST])
     memcpy(sim->limit_fast, limit, sizeof limit);

@@ -40,7 +40,7 @@ typedef struct sph_part {
   /* What its evaluations limit: steps by waves and motion, and these terms. */
   int acoustic, motion;
   unsigned limit_terms, limit_called;
-  int lists, density, eos, walls, gradients, shift, drag, pairs; /* phases */
+  int lists, density, eos, walls, gradients, switches, shift, drag, pairs; /* phases */
   int only_walls; /* pairs: of fluids with walls alone */
   /* Registered pair terms, the fields that they read, what they add to. */
   int tiles;
@@ -57,6 +57,7 @@ typedef struct sph_sorted {
   double *phi;                /* of the row phi, not sorted, [room]; NULL: another row */
   double *built[3];           /* positions at the last list build, not sorted, [capacity] */
   double *shifted;            /* records of shift_pair.h, as many; NULL: nothing shifts */
+  double *shock; /* records of Cullen & Dehnen's second pass (switch_pair.h), or NULL */
 } sph_sorted;
 
 typedef struct sph_outlet {

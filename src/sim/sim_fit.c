@@ -44,8 +44,10 @@ static int separable(sph_sim *sim)
 
 static int bounded(sph_sim *sim)
 {
-  const char *term = first_of(sim, SPH_SIGNAL | SPH_CONDUCTIVITY | SPH_STRESS |
-                                       (sim->part[SPH_WHOLE].shift ? SPH_SHIFTS : 0));
+  unsigned without = SPH_SIGNAL | SPH_CONDUCTIVITY | SPH_STRESS;
+  if (sim->part[SPH_WHOLE].shift) without |= SPH_SHIFTS;
+  if (sph_term_set_alpha(&sim->terms) >= 0) without |= SPH_ARTIFICIAL; /* rates of alpha */
+  const char *term = first_of(sim, without);
   if (!term) return SPH_OK;
   return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                       "integrator %s needs a bound of the eigenvalues of all terms, and there is "

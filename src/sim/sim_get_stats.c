@@ -1,4 +1,5 @@
 #include "sim_implicit.h"
+#include "switch_pair.h"
 
 static double held(const sph_sim *sim)
 {
@@ -8,6 +9,7 @@ static double held(const sph_sim *sim)
     const sph_sorted *sorted = &sim->sorted[g];
     int arrays = (int)sorted->stride + sim->dim + (sorted->phi != NULL);
     for (int s = 0; s < SPH_PAIR_SUMS; s++) arrays += sorted->sum[s] != NULL;
+    if (sorted->shock) arrays += switch_slots(sim->dim);
     doubles += (double)sorted->room * arrays;
     for (int field = 0; field < SPH_FIELDS; field++)
       for (int c = 0; c < 3; c++) doubles += group->own[field][c] ? (double)group->capacity : 0;

@@ -38,7 +38,7 @@ static unsigned terms_of(const sph_part *part, const sph_group *target, const sp
   terms &= ~(unsigned)(SPH_CONDUCTIVITY | SPH_XSPH);
   if (!(source->boundary.temperature > 0)) terms &= ~(unsigned)SPH_CONDUCTION; /* adiabatic */
   if (!source->boundary.no_slip)
-    terms &= ~(unsigned)SPH_VISCOUS;
+    terms &= ~(unsigned)(SPH_VISCOUS | SPH_SWITCHES);
   else if ((terms & SPH_VISCOUS) || part->tiles)
     terms |= SPH_NO_SLIP;
   return terms | SPH_WALL;

@@ -12,6 +12,7 @@
  *   pair terms that act at walls                     walls
  *   drag                                             drag
  *   Antuono's diffusion, corrected terms             gradients; these: walls
+ *   switched artificial viscosity                    switches
  *   shifting, transport velocity                     shift */
 #include "sim_parts.h"
 
@@ -124,6 +125,8 @@ static void find_phases(const sph_sim *sim, sph_part *part)
     part->terms |= fluid_corrections(part->terms | (sim->loop_terms & SPH_CORRECTED));
   part->gradients = (part->rates & SPH_ANTUONO) || (part->terms & SPH_CORRECTED);
   part->walls = whole || (part->terms & SPH_CORRECTED) || (part->pairs && meets_walls(sim, part));
+  if (part->rates & (SPH_ARTIFICIAL | SPH_SIGNAL)) part->terms |= sim->loop_terms & SPH_SWITCHES;
+  part->switches = (part->terms & SPH_SWITCHES) != 0;
   /* Of a wall that only viscosity or conduction sees, pressure and density count for nothing. */
   part->eos = (part->walls && ((part->rates & WALLS_READ_EOS) || part->tiles || part->shift)) ||
               (part->rates & READ_EOS) || (part->tile_fields & TILES_READ_EOS) || part->acoustic ||
@@ -184,6 +187,12 @@ int sph_sim_parts_fit(sph_sim *sim)
                         "term %s is fast, but integrator %s steps all terms alike; right is "
                         "mri:<coupling>",
                         fast, method);
+  if ((sim->terms.bits & SPH_CULLEN_DEHNEN) && (imex || mri))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "the switch cullen-dehnen follows from the whole acceleration, of which "
+                        "integrator %s takes parts; right is one that steps all terms alike, or "
+                        "morris-monaghan",
+                        method);
   if (mri && !fast)
     return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                         "integrator %s needs fast terms, and none is: sph_sim_set_part", method);

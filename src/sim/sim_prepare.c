@@ -20,6 +20,7 @@
 #include "sim_tangent.h"
 #include "sim_weights.h"
 #include "sundials.h"
+#include "switch_pair.h"
 #include "term_part.h"
 #include "wall_pair.h"
 
@@ -257,6 +258,7 @@ static int make_terms(sph_sim *sim)
   if (terms->summed && (bits & SPH_THERMAL)) bits |= SPH_CONTINUITY; /* for the work of pressure */
   if (terms->alpha == 0 && terms->beta == 0) bits &= ~(unsigned)SPH_ARTIFICIAL;
   if (terms->signal_alpha == 0) bits &= ~(unsigned)SPH_SIGNAL;
+  if (!(bits & (SPH_ARTIFICIAL | SPH_SIGNAL))) bits &= ~(unsigned)SPH_SWITCHES;
   if (terms->epsilon == 0) bits &= ~(unsigned)SPH_XSPH;
   if (terms->stress_alpha == 0 && terms->stress_beta == 0) bits &= ~(unsigned)SPH_STRESS;
   if (terms->shift.strength == 0) bits &= ~(unsigned)SPH_SHIFTING;
@@ -322,6 +324,8 @@ static int sums_of(const sph_sim *sim, const sph_group *group)
     const int own = shift_concentration_sums(sim->dim);
     sums = sums > own ? sums : own;
   }
+  const int switched = switch_sum_more(sim->dim) + 2;
+  if (!group->wall && (sim->loop_terms & SPH_SWITCHES)) sums = sums > switched ? sums : switched;
   return sums;
 }
 
@@ -365,6 +369,9 @@ static int make_sorted(sph_sim *sim, int g)
   if (sim->loop_terms & SPH_SHIFTS)
     sorted->shifted = SPH_NEW(double, sorted->room *shift_slots(sim->dim) + SPH_PAIR_SLOTS,
                               "records of what shifts", &sim->error);
+  if (!sim->group[g]->wall && (terms & SPH_CULLEN_DEHNEN))
+    sorted->shock = SPH_NEW(double, sorted->room *switch_slots(sim->dim) + SPH_PAIR_SLOTS,
+                            "records of a switch", &sim->error);
   if (terms & SPH_FORM_PHI) sorted->phi = SPH_NEW(double, sorted->room, "phi", &sim->error);
   return sim->error.status;
 }
@@ -533,6 +540,7 @@ void sph_sim_prepare_undo(sph_sim *sim)
     sph_memory_free(sim->sorted[g].record);
     sph_memory_free(sim->sorted[g].phi);
     sph_memory_free(sim->sorted[g].shifted);
+    sph_memory_free(sim->sorted[g].shock);
     for (int s = 0; s < SPH_PAIR_SUMS; s++) sph_memory_free(sim->sorted[g].sum[s]);
     for (int d = 0; d < 3; d++) sph_memory_free(sim->sorted[g].built[d]);
   }

@@ -25,11 +25,13 @@ static int phases(sph_evaluation *e)
   if (!status) status = sph_sim_walls_fill(e);   /* walls */
   if (!status) status = sph_comm_exchange(SPH_COMM_WALLS);
   if (!status) status = sph_sim_gradients(e); /* prepare */
+  if (!status) status = sph_sim_switches(e);  /* switches */
   if (!status) status = sph_comm_exchange(SPH_COMM_GRADIENTS);
   if (!status) status = sph_sim_shift_add(e); /* shift */
   if (!status) status = sph_sim_drag_add(e);  /* drag */
   if (!status) status = sph_sim_pairs_add(e); /* pairs */
-  if (!status) status = sph_sim_admit(e);     /* admit */
+  if (!status) status = sph_sim_switches_rates(e);
+  if (!status) status = sph_sim_admit(e); /* admit */
   return status;
 }
 

@@ -13,6 +13,7 @@ typedef struct sph_evaluation {
   double limit_user;    /* step limit of body terms [s] */
   sph_view view[SPH_SETS_MAX];
   double drag_rate[2]; /* largest of fluids, of dust [1/s] */
+  double switch_rate;  /* largest of an alpha that rises [1/s] */
 } sph_evaluation;
 
 /* The views of all groups of an evaluation; ydot NULL: no rates. */
@@ -36,6 +37,8 @@ int sph_sim_bodies_add(sph_evaluation *e);             /* bodies: starts all rat
 int sph_sim_walls_move(sph_evaluation *e);             /* walls: prescribed motion */
 int sph_sim_walls_fill(sph_evaluation *e);             /* walls: extrapolation */
 int sph_sim_gradients(sph_evaluation *e);              /* prepare */
+int sph_sim_switches(sph_evaluation *e);               /* switches: of artificial viscosity, */
+int sph_sim_switches_rates(sph_evaluation *e);         /* and what follows from accelerations */
 void sph_sim_pairs_pack(sph_evaluation *e, int walls); /* sorted copies of fluids, or of walls */
 int sph_sim_shift_add(sph_evaluation *e);              /* shift */
 int sph_sim_drag_add(sph_evaluation *e);               /* drag */

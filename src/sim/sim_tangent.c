@@ -75,6 +75,12 @@ sph_tangent *sph_sim_tangent_get(sph_sim *sim)
                  "no derivatives of terms whose gradients are corrected: right is correction none");
     return NULL;
   }
+  if (sim->loop_terms & SPH_SWITCHES) {
+    sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                 "no derivatives of a simulation whose artificial viscosity has a switch: its "
+                 "slope is not worked out; right is a viscosity without one");
+    return NULL;
+  }
   if (sim->part[SPH_WHOLE].shift) {
     sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                  "no derivatives of a right-hand side with %s: it jumps where particles come to a "

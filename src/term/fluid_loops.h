@@ -17,7 +17,7 @@
   X(kernel, dim, antuono, SPH_WATER | SPH_ARTIFICIAL | SPH_ANTUONO, 3 * dim + 4, SPH_FLUID_SUMS) \
   X(kernel, dim, antuono_wall, SPH_WATER | SPH_ANTUONO | SPH_WALL, 3 * dim + 4, SPH_FLUID_SUMS)  \
   X(kernel, dim, any, k->terms & ~(unsigned)SPH_RARE, 3 * dim + 5, SPH_FLUID_SUMS)               \
-  X(kernel, dim, all, k->terms, 3 * dim + 7 + dim * (dim + 1) / 2, SPH_FLUID_SUMS_ALL)
+  X(kernel, dim, all, k->terms, 3 * dim + 9 + dim * (dim + 1) / 2, SPH_FLUID_SUMS_ALL)
 
 enum {
 #define SPH_FLUID_SET_ENUM(kernel, dim, name, mask, slots, sums) SPH_FLUID_SET_##name,

@@ -28,8 +28,11 @@ enum {
   SPH_CONDUCTIVITY = 4096,
   SPH_CONDUCTION = 8192,
   SPH_XSPH = 16384,
-  SPH_WALL = 32768,    /* the source is a wall, */
-  SPH_NO_SLIP = 65536, /* and viscous terms see it */
+  SPH_WALL = 32768,     /* the source is a wall, */
+  SPH_NO_SLIP = 65536,  /* and viscous terms see it */
+  SPH_BALSARA = 131072, /* switches of artificial viscosity: term_switch.h */
+  SPH_MORRIS_MONAGHAN = 262144,
+  SPH_CULLEN_DEHNEN = 524288,
   SPH_STRESS = 1 << 25,
   /* Gradients of these terms are corrected: */
   SPH_CONTINUITY_CORRECTED = 1 << 20,
@@ -42,8 +45,9 @@ enum {
   SPH_CORRECTED = SPH_CONTINUITY_CORRECTED | SPH_PRESSURE_CORRECTED | SPH_LAMINAR_CORRECTED,
   SPH_DIFFUSION = SPH_MOLTENI | SPH_ANTUONO | SPH_FOURTAKAS,
   SPH_VISCOUS = SPH_ARTIFICIAL | SPH_SIGNAL | SPH_MORRIS | SPH_MCG,
+  SPH_SWITCHES = SPH_BALSARA | SPH_MORRIS_MONAGHAN | SPH_CULLEN_DEHNEN,
   SPH_RARE = SPH_FORM_PHI | SPH_SIGNAL | SPH_MORRIS | SPH_MCG | SPH_FOURTAKAS | SPH_CONDUCTION |
-             SPH_XSPH | SPH_STRESS | SPH_CORRECTED
+             SPH_XSPH | SPH_STRESS | SPH_SWITCHES | SPH_CORRECTED
 };
 
 /* Corrections of those terms that are there. */
@@ -56,9 +60,11 @@ BODY unsigned fluid_corrections(unsigned terms)
   return corrections;
 }
 
-/* A record, in slots: x[dim] v[dim] rho p c V extra[dim] u T phi, then B or scalars of tiles.
+/* A record, in slots: x[dim] v[dim] rho p c V extra[dim] u T phi alpha f, then B or scalars of
+ * tiles.
  *   p: the pressure (C2), p/rho^2 (S) or phi p/rho^2;
  *   extra: <grad rho>^L of a fluid, the velocity that viscous terms see of a wall;
+ *   alpha: of artificial viscosity, over that of the term;  f: Balsara's factor;
  *   B: the inverse gradient matrix of a fluid, its upper triangle by rows. */
 BODY int slot_v(int dim) { return dim; }
 BODY int slot_rho(int dim) { return 2 * dim; }
@@ -69,14 +75,17 @@ BODY int slot_extra(int dim) { return 2 * dim + 4; }
 BODY int slot_u(int dim) { return 3 * dim + 4; }
 BODY int slot_T(int dim) { return 3 * dim + 5; }
 BODY int slot_phi(int dim) { return 3 * dim + 6; }
-BODY int slot_scalar(int dim) { return 3 * dim + 7; }
-BODY int slot_B(int dim) { return 3 * dim + 7; }
+BODY int slot_alpha(int dim) { return 3 * dim + 7; }
+BODY int slot_f(int dim) { return 3 * dim + 8; }
+BODY int slot_scalar(int dim) { return 3 * dim + 9; }
+BODY int slot_B(int dim) { return 3 * dim + 9; }
 BODY int fluid_B(int dim) { return dim * (dim + 1) / 2; } /* numbers of B */
 /* Slots of a record: as few as the terms read. */
 BODY int fluid_slots(int dim, unsigned terms, int scalars)
 {
   if (scalars) return slot_scalar(dim) + scalars;
   if (terms & SPH_CORRECTED) return slot_B(dim) + fluid_B(dim);
+  if (terms & SPH_SWITCHES) return slot_f(dim) + 1;
   if (terms & SPH_FORM_PHI) return slot_phi(dim) + 1;
   if (terms & SPH_THERMAL) return slot_T(dim) + 1;
   return terms & (SPH_ANTUONO | SPH_WALL) ? 3 * dim + 4 : 2 * dim + 4;
@@ -120,7 +129,7 @@ typedef struct fluid_constants {
 enum { SPH_FLUID_NUMBERS = (sizeof(fluid_constants) - sizeof(double)) / sizeof(vec_scalar) };
 
 typedef struct particle {
-  vec x[3], v[3], rho, p, c, V, extra[3], u, T, phi;
+  vec x[3], v[3], rho, p, c, V, extra[3], u, T, phi, alpha, f;
 } particle;
 
 typedef struct pair {
@@ -148,6 +157,7 @@ BODY particle fluid_particle(int dim, unsigned terms, const vec *slot)
   if (terms & SPH_THERMAL) a.u = slot[slot_u(dim)];
   if (terms & SPH_CONDUCTION) a.T = slot[slot_T(dim)];
   if (terms & SPH_FORM_PHI) a.phi = slot[slot_phi(dim)];
+  if (terms & SPH_SWITCHES) a.alpha = slot[slot_alpha(dim)], a.f = slot[slot_f(dim)];
   return a;
 }
 

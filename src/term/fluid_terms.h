@@ -20,8 +20,8 @@ BODY void fluid_terms(int dim, int kernel, unsigned terms, pair *p, const fluid_
     term_continuity(terms, p, p->rv, j, sum);
   if ((terms & SPH_PRESSURE_FORCE) && !(terms & SPH_PRESSURE_CORRECTED))
     term_pressure(terms, p, i, j);
-  if (terms & SPH_ARTIFICIAL) term_viscosity_artificial(p, k, i, j);
-  if (terms & SPH_SIGNAL) term_viscosity_signal(p, k, i, j);
+  if (terms & SPH_ARTIFICIAL) term_viscosity_artificial(terms, p, k, i, j);
+  if (terms & SPH_SIGNAL) term_viscosity_signal(terms, p, k, i, j);
   if (terms & SPH_MORRIS) term_viscosity_morris(p, kernel, k, i);
   if (terms & SPH_MCG) term_viscosity_mcg(p, kernel, k, i);
   if (terms & SPH_CONDUCTIVITY) term_conductivity_artificial(terms, p, k, i, j, sum);

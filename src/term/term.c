@@ -11,9 +11,10 @@ static const struct {
     {"pressure", "a_i = -sum m_j (p_i + p_j)/(rho_i rho_j) grad W (c2) or "
                  "-sum m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W (s), (phi)"},
     {"viscosity-artificial", "a_i = -sum m_j Pi_ij grad W, Pi = (-alpha c mu + beta mu^2)/rho, "
-                             "mu = min(h v_ij.r/(r^2 + 0.01 h^2), 0)"},
-    {"viscosity-signal",
-     "the same with Pi = -alpha/2 (c_i + c_j - beta w) w/rho, w = v_ij.r/r < 0"},
+                             "mu = min(h v_ij.r/(r^2 + 0.01 h^2), 0); switches balsara, "
+                             "morris-monaghan, cullen-dehnen"},
+    {"viscosity-signal", "the same, also its switches, with Pi = -alpha/2 (c_i + c_j - beta w) "
+                         "w/rho, w = v_ij.r/r < 0"},
     {"viscosity-laminar", "a_i = sum m_j (eta_i + eta_j)/(rho_i rho_j) F v_ij (morris) or "
                           "2 (d + 2) sum m_j eta_ij/(rho_i rho_j) v_ij.r/r^2 grad W (mcg), "
                           "eta_ij = 2 eta_i eta_j/(eta_i + eta_j)"},

@@ -86,31 +86,11 @@ static int add_summation(sph_term_set *set, const sph_term *term, sph_error *err
   return SPH_OK;
 }
 
-static int add_viscosity(sph_term_set *set, const sph_term *term, sph_error *error)
-{
-  int status = not_below_zero(term->name, "alpha", term->alpha, error);
-  if (!status) status = not_below_zero(term->name, "beta", term->beta, error);
-  if (!status) status = claim(set, SPH_ARTIFICIAL, term->name, error);
-  set->alpha = term->alpha;
-  set->beta = term->beta;
-  return status;
-}
-
 static int add_conductivity(sph_term_set *set, const sph_term *term, sph_error *error)
 {
   int status = not_below_zero(term->name, "alpha", term->alpha, error);
   if (!status) status = claim(set, SPH_CONDUCTIVITY, term->name, error);
   set->alpha_u = term->alpha;
-  return status;
-}
-
-static int add_signal(sph_term_set *set, const sph_term *term, sph_error *error)
-{
-  int status = not_below_zero(term->name, "alpha", term->alpha, error);
-  if (!status) status = not_below_zero(term->name, "beta", term->beta, error);
-  if (!status) status = claim(set, SPH_SIGNAL, term->name, error);
-  set->signal_alpha = term->alpha;
-  set->signal_beta = term->beta;
   return status;
 }
 
@@ -296,6 +276,101 @@ static int keep_scalar(sph_term_set *set, const sph_scalar *scalar)
   return set->scalars++;
 }
 
+/* ---- artificial viscosity ---- */
+
+int sph_term_set_alpha(const sph_term_set *set)
+{
+  const unsigned varied = SPH_MORRIS_MONAGHAN | SPH_CULLEN_DEHNEN;
+  return set->bits & varied ? sph_term_set_scalar(set, "alpha") : -1;
+}
+
+double sph_term_set_alpha_max(const sph_term_set *set)
+{
+  return set->bits & SPH_SIGNAL ? set->signal_alpha : set->alpha;
+}
+
+static int read_switches(const sph_term *term, unsigned *bits, sph_error *error)
+{
+  static const struct {
+    const char *name;
+    unsigned bit;
+  } known[] = {{"none", 0},
+               {"balsara", SPH_BALSARA},
+               {"morris-monaghan", SPH_MORRIS_MONAGHAN},
+               {"cullen-dehnen", SPH_CULLEN_DEHNEN}};
+  enum { KNOWN = sizeof known / sizeof *known };
+  const char *at = term->switches ? term->switches : "";
+  for (size_t n; *(at += strspn(at, " ,")); at += n) {
+    int k = 0;
+    n = strcspn(at, " ,");
+    while (k < KNOWN && (strlen(known[k].name) != n || strncmp(at, known[k].name, n) != 0)) k++;
+    if (k == KNOWN)
+      return sph_error_set(error, SPH_ERR_ARGUMENT,
+                           "term %s: switches \"%.60s\"; known: none, balsara, morris-monaghan, "
+                           "cullen-dehnen",
+                           term->name, at);
+    *bits |= known[k].bit;
+  }
+  return SPH_OK;
+}
+
+/* Its alpha, where a switch varies it, is a scalar that every particle carries. */
+static int add_switches(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  const unsigned varied = SPH_MORRIS_MONAGHAN | SPH_CULLEN_DEHNEN;
+  unsigned bits = 0;
+  int status = read_switches(term, &bits, error);
+  if (status) return status;
+  if ((bits & varied) == varied)
+    return sph_error_set(
+        error, SPH_ERR_ARGUMENT,
+        "term %s: switches morris-monaghan and cullen-dehnen: right is one of them", term->name);
+  set->bits |= bits;
+  if (!(bits & varied)) return SPH_OK;
+  if (!(term->alpha > 0))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "term %s: alpha = %g, up to which its switch goes; right is > 0",
+                         term->name, term->alpha);
+  sph_term alpha = *term;
+  alpha.scalar = (sph_scalar){"alpha", "1", term->alpha, term->alpha_min, 0};
+  set->alpha_min = term->alpha_min;
+  status = check_scalar(set, &alpha, error);
+  if (!status) keep_scalar(set, &alpha.scalar);
+  return status;
+}
+
+/* Of a term that is there with switches, alpha and beta may change; these stay. */
+static int check_viscosity(const sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  const double least = sph_term_set_alpha(set) < 0 ? term->alpha_min : set->alpha_min;
+  int status = not_below_zero(term->name, "alpha", term->alpha, error);
+  if (!status) status = not_below_zero(term->name, "beta", term->beta, error);
+  if (!status) status = not_below_zero(term->name, "alpha_min", least, error);
+  if (!status && (term->switches || sph_term_set_alpha(set) >= 0) && least > term->alpha)
+    status =
+        sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: alpha_min = %g; right is up to alpha = %g",
+                      term->name, least, term->alpha);
+  return status;
+}
+
+static int add_viscosity(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  int status = check_viscosity(set, term, error);
+  if (!status) status = claim(set, SPH_ARTIFICIAL, term->name, error);
+  set->alpha = term->alpha;
+  set->beta = term->beta;
+  return status ? status : add_switches(set, term, error);
+}
+
+static int add_signal(sph_term_set *set, const sph_term *term, sph_error *error)
+{
+  int status = check_viscosity(set, term, error);
+  if (!status) status = claim(set, SPH_SIGNAL, term->name, error);
+  set->signal_alpha = term->alpha;
+  set->signal_beta = term->beta;
+  return status ? status : add_switches(set, term, error);
+}
+
 static int check_called(const sph_term_set *set, const sph_term *term, sph_error *error)
 {
   if (!strcmp(term->name, "heat-source") && !term->body)
@@ -329,7 +404,7 @@ static int add_called(sph_term_set *set, const sph_term *term, sph_error *error)
   kept->term.reads = term->reads ? kept->reads : NULL;
   snprintf(kept->adds, sizeof kept->adds, "%s", term->adds ? term->adds : "");
   kept->term.adds = term->adds ? kept->adds : NULL;
-  kept->term.form = kept->term.correction = NULL;
+  kept->term.form = kept->term.correction = kept->term.switches = NULL;
   sph_term_part_changes(term, &kept->changes, error);
   kept->term.implicit = NULL; /* as read in changes */
   kept->scalar = term->scalar.name ? keep_scalar(set, &term->scalar) : -1;
@@ -427,7 +502,9 @@ static int change_pair(sph_term_set *set, const sph_term *term, sph_error *error
   if (!(was & bits))
     return sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: the simulation has none", term->name);
   set->bits &= ~bits;
-  int status = add(set, term, error);
+  sph_term same = *term; /* its switches stay, too */
+  same.switches = NULL;
+  int status = add(set, &same, error);
   if (!status && set->bits != was)
     status =
         sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: form \"%s\" is another one than before",
@@ -481,6 +558,13 @@ int sph_term_set_check(const sph_term_set *set, sph_error *error)
   if (set->form_phi == SPH_PRESSURE_FORCE)
     return sph_error_set(error, SPH_ERR_ARGUMENT,
                          "term pressure: form phi takes phi from continuity of form phi");
+  if ((set->bits & SPH_SWITCHES) && (set->bits & SPH_ARTIFICIAL) && (set->bits & SPH_SIGNAL))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "viscosity-artificial and viscosity-signal, one of them with a switch: "
+                         "leave the other one out");
+  if ((set->bits & SPH_SWITCHES) && (set->implicit & set->bits & SPH_ARTIFICIAL))
+    return sph_error_set(error, SPH_ERR_ARGUMENT,
+                         "viscosity-artificial with a switch cannot be implicit");
   if (set->summed && (set->bits & SPH_DIFFUSION) && set->delta > 0)
     return sph_error_set(error, SPH_ERR_ARGUMENT,
                          "term delta diffuses a density that is integrated; summation has none: "

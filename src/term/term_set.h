@@ -46,6 +46,7 @@ typedef struct sph_term_set {
   int summed, calibrate;             /* density is a sum over neighbours */
   double alpha, beta;                /* artificial viscosity */
   double signal_alpha, signal_beta;  /* the one with a signal velocity */
+  double alpha_min;                  /* of a switch that varies alpha */
   double alpha_u;                    /* artificial conductivity */
   double delta;                      /* density diffusion */
   double epsilon;                    /* XSPH */
@@ -72,5 +73,8 @@ void sph_term_set_free(sph_term_set *set);
 double sph_term_set_potential(const sph_term_set *set, const double x[3]);
 /* Number of the scalar of that name, or -1. */
 int sph_term_set_scalar(const sph_term_set *set, const char *name);
+/* Number of the scalar alpha of a switch, or -1; the alpha that a switch goes up to. */
+int sph_term_set_alpha(const sph_term_set *set);
+double sph_term_set_alpha_max(const sph_term_set *set);
 
 #endif

@@ -7,13 +7,14 @@
  * Central and antisymmetric; gas alpha = 1, beta = 2; water alpha = 0.01 .. 0.1, beta = 0. */
 #ifndef SPH_TERM_VISCOSITY_ARTIFICIAL_H
 #define SPH_TERM_VISCOSITY_ARTIFICIAL_H
-#include "fluid_pair.h"
+#include "term_switch.h"
 
-BODY void term_viscosity_artificial(pair *p, const fluid_constants *k, const particle *i,
-                                    const particle *j)
+BODY void term_viscosity_artificial(unsigned terms, pair *p, const fluid_constants *k,
+                                    const particle *i, const particle *j)
 {
   vec w = v_min0(p->rv_viscous), e = p->r2 + k->eta2;
-  p->along_r -= p->mF * w * (k->viscosity_1 * (i->c + j->c) * e + k->viscosity_2 * w) /
+  p->along_r -= term_switch(terms, i, j) * p->mF * w *
+                (k->viscosity_1 * (i->c + j->c) * e + k->viscosity_2 * w) /
                 (e * e * (i->rho + j->rho));
 }
 

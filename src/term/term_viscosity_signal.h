@@ -8,14 +8,14 @@
  * Central and antisymmetric; does not depend on h. */
 #ifndef SPH_TERM_VISCOSITY_SIGNAL_H
 #define SPH_TERM_VISCOSITY_SIGNAL_H
-#include "fluid_pair.h"
+#include "term_switch.h"
 
-BODY void term_viscosity_signal(pair *p, const fluid_constants *k, const particle *i,
-                                const particle *j)
+BODY void term_viscosity_signal(unsigned terms, pair *p, const fluid_constants *k,
+                                const particle *i, const particle *j)
 {
   vec w = v_min0(p->rv_viscous) / fluid_apart(p->distance);
   vec v_sig = i->c + j->c - k->signal_2 * w;
-  p->along_r -= p->mF * k->signal_1 * v_sig * w / (i->rho + j->rho);
+  p->along_r -= term_switch(terms, i, j) * p->mF * k->signal_1 * v_sig * w / (i->rho + j->rho);
 }
 
 #endif

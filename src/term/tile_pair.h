@@ -279,17 +279,17 @@ BODY void tile_block(int dim, int kernel, unsigned terms, const sph_pair_task *t
   const double *record = t->target + b * SPH_LANES * t->target_stride;
   vec home[SPH_PAIR_SLOTS];
   int n = 0;
-#pragma GCC unroll 24
+#pragma GCC unroll 26
   for (int s = 0; s < slots; s++) home[s] = v_gather(record + s, t->target_stride);
   tile_targets(dim, k, record, t->target_stride, rows);
   for (long r = t->first[b]; r < t->first[b + 1]; r++) {
     const sph_run run = t->runs[r];
     vec i[SPH_PAIR_SLOTS], j[SPH_PAIR_SLOTS];
-#pragma GCC unroll 24
+#pragma GCC unroll 26
     for (int s = 0; s < slots; s++) i[s] = s < dim ? home[s] - t->shift[run.image][s] : home[s];
     const double *source = t->source + (long)run.start * t->source_stride;
     for (int q = 0; q < (int)run.count; q++, source += t->source_stride) {
-#pragma GCC unroll 24
+#pragma GCC unroll 26
       for (int s = 0; s < slots; s++) j[s] = v_set(source[s]);
       tile_fill(dim, kernel, terms, k, i, j, source, sum, rows, n++);
       if (n < SPH_TILE_ROWS) continue;

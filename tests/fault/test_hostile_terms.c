@@ -580,6 +580,70 @@ static void manufactured(void **state)
   assert_int_equal(sph_manufactured_error_of(NULL, "velocity", NULL), SPH_ERR_ARGUMENT);
 }
 
+/* ---- switches of artificial viscosity ---- */
+
+static sph_term monaghan(double alpha, const char *switches, double alpha_min)
+{
+  return sph_term_switched(sph_term_viscosity_artificial(alpha, 2), switches, alpha_min);
+}
+
+static void switches(void **state)
+{
+  (void)state;
+  subject s;
+  refused(gas(), monaghan(1, "balsara colin", 0),
+          "term viscosity-artificial: switches \"colin\"; known: none, balsara, morris-monaghan, "
+          "cullen-dehnen");
+  refused(gas(), monaghan(1, "cullen-dehnen,morris-monaghan", 0),
+          "term viscosity-artificial: switches morris-monaghan and cullen-dehnen: right is one of "
+          "them");
+  refused(gas(), monaghan(0, "morris-monaghan", 0),
+          "term viscosity-artificial: alpha = 0, up to which its switch goes; right is > 0");
+  refused(gas(), monaghan(1, "morris-monaghan", 1.5),
+          "term viscosity-artificial: alpha_min = 1.5; right is up to alpha = 1");
+  refused(gas(), monaghan(1, "morris-monaghan", -1),
+          "term viscosity-artificial: alpha_min = -1; right is a finite number >= 0");
+  s = gas(), sph_sim_add_term(s.sim, monaghan(1, "balsara", 0));
+  refused(s, sph_term_viscosity_signal(1, 3),
+          "viscosity-artificial and viscosity-signal, one of them with a switch: leave the other "
+          "one out");
+  s = gas(), sph_sim_add_term(s.sim, monaghan(1, "balsara", 0));
+  sph_sim_set_part(s.sim, "viscosity-artificial", "implicit");
+  assert_refused(s, SPH_ERR_ARGUMENT, "viscosity-artificial with a switch cannot be implicit");
+  s = gas(), sph_sim_add_term(s.sim, monaghan(1, "cullen-dehnen", 0));
+  sph_sim_add_term(s.sim, sph_term_viscosity_laminar("morris"));
+  sph_group_set_viscosity(s.water, 1);
+  sph_sim_set_integrator(s.sim, &(sph_integrator_def){.method = "imex:ark324l2sa-4-2-3"});
+  assert_refused(
+      s, SPH_ERR_ARGUMENT,
+      "the switch cullen-dehnen follows from the whole acceleration, of which integrator "
+      "imex:ark324l2sa-4-2-3 takes parts; right is one that steps all terms alike, or "
+      "morris-monaghan");
+  s = gas(), sph_sim_add_term(s.sim, monaghan(1, "balsara", 0));
+  sph_jacobian *jacobian = sph_jacobian_create(s.sim, NULL);
+  assert_int_equal(sph_jacobian_evaluate(jacobian), SPH_ERR_ARGUMENT);
+  sph_jacobian_free(jacobian);
+  assert_refused(
+      s, SPH_ERR_ARGUMENT,
+      "no derivatives of a simulation whose artificial viscosity has a switch: its slope "
+      "is not worked out; right is a viscosity without one");
+}
+
+/* Alpha and beta of a term with a switch may change; what they may not go below stays. */
+static void changed_switch(void **state)
+{
+  (void)state;
+  subject s = gas();
+  sph_sim_add_term(s.sim, monaghan(1, "morris-monaghan", 0.1));
+  assert_int_equal(sph_sim_evaluate(s.sim), SPH_OK);
+  sph_sim_change_term(s.sim, sph_term_viscosity_artificial(2, 4));
+  assert_int_equal(sph_sim_evaluate(s.sim), SPH_OK);
+  assert_non_null(sph_group_rate(s.water, "alpha", 0));
+  sph_sim_change_term(s.sim, sph_term_viscosity_artificial(0.05, 0));
+  assert_refused(s, SPH_ERR_ARGUMENT,
+                 "term viscosity-artificial: alpha_min = 0.1; right is up to alpha = 0.05");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -598,6 +662,8 @@ int main(void)
       cmocka_unit_test(warnings_of_dust),
       cmocka_unit_test(warnings_of_steps),
       cmocka_unit_test(manufactured),
+      cmocka_unit_test(switches),
+      cmocka_unit_test(changed_switch),
   };
   return cmocka_run_group_tests_name("hostile terms", tests, NULL, NULL);
 }

@@ -418,17 +418,31 @@ static void compression(const oracle *o, int j_is_wall, oracle_particle *i,
   i->work += per_p * rate, i->work_size += per_p * size; /* times p, or T dp/dT */
 }
 
+/* What switches leave of Pi, and its size: alpha and beta are those of the term. */
+static real switched(const oracle *o, const oracle_particle *i, const oracle_particle *j, int wall,
+                     real *size)
+{
+  const real alpha = o->signal_alpha > 0 ? o->signal_alpha : o->alpha;
+  const real of_i = o->varied ? i->alpha / alpha : 1, of_j = o->varied ? j->alpha / alpha : 1;
+  *size = 1;
+  if (!o->balsara && !o->varied) return 1;
+  *size = wall ? i->f_size * of_i : (i->f_size + j->f_size) / 2 * (of_i + of_j) / 2;
+  return wall ? i->f * of_i : (i->f + j->f) / 2 * (of_i + of_j) / 2;
+}
+
 /* Monaghan (1992):  a = - sum m_j Pi grad W,  du = 1/2 sum m_j Pi v_ij.grad W,
  * Pi = (-alpha c mu + beta mu^2)/rho where v.r < 0,  mu = h v.r/(r^2 + 0.01 h^2). */
 static void viscosity(const oracle *o, oracle_particle *i, const oracle_particle *j, const pair *ij)
 {
+  real share_size, share = switched(o, i, j, o->group[j->group].wall, &share_size);
   real v[3], h = o->h, rho = (i->rho + j->rho) / 2, c = (i->c + j->c) / 2;
   difference(i->v_viscous, j->v_viscous, v);
   if (dot(v, ij->d) >= 0) return;
   real scale = h / (ij->r * ij->r + 0.01L * h * h), mu = scale * dot(v, ij->d);
   real speed = norm(i->v_viscous) + norm(j->v_viscous), mu_size = scale * speed * ij->r;
-  real Pi = (-o->alpha * c * mu + o->beta * mu * mu) / rho;
-  real Pi_size = (o->alpha * c * mu_size + o->beta * mu_size * mu_size) / rho * j->condition;
+  real Pi = share * (-o->alpha * c * mu + o->beta * mu * mu) / rho;
+  real Pi_size =
+      share_size * (o->alpha * c * mu_size + o->beta * mu_size * mu_size) / rho * j->condition;
   for (int k = 0; k < 3; k++) i->a[k] -= j->m * Pi * ij->grad_w[k];
   i->a_size += j->m * Pi_size * ij->grad;
   i->heat += j->m * Pi * dot(v, ij->grad_w) / 2;
@@ -440,12 +454,13 @@ static void signal_viscosity(const oracle *o, oracle_particle *i, const oracle_p
                              const pair *ij)
 {
   real v[3], rho = (i->rho + j->rho) / 2, speed = norm(i->v_viscous) + norm(j->v_viscous);
+  real share_size, share = switched(o, i, j, o->group[j->group].wall, &share_size);
   difference(i->v_viscous, j->v_viscous, v);
   real w = dot(v, ij->d) / ij->r;
   if (w >= 0) return;
-  real Pi = -o->signal_alpha / 2 * (i->c + j->c - o->signal_beta * w) * w / rho;
+  real Pi = -share * o->signal_alpha / 2 * (i->c + j->c - o->signal_beta * w) * w / rho;
   real Pi_size = o->signal_alpha / 2 * (i->c + j->c + o->signal_beta * speed) * speed / rho;
-  Pi_size *= i->condition * j->condition;
+  Pi_size *= share_size * i->condition * j->condition;
   for (int k = 0; k < 3; k++) i->a[k] -= j->m * Pi * ij->grad_w[k];
   i->a_size += j->m * Pi_size * ij->grad;
   i->heat += j->m * Pi * dot(v, ij->grad_w) / 2;
@@ -659,6 +674,117 @@ static void rates(oracle *o, long i)
   if (has_energy(o, i)) energy_rate(o, eos_of(o, i), it);
 }
 
+/* ---- switches of artificial viscosity: Balsara (1995); Morris & Monaghan (1997) with Rosswog's
+ * source; Cullen & Dehnen (2010) without their jump.  Gradients over fluid particles:
+ *   db^a/dx^b = sum V_j (b_j - b_i)^a (M^-1 grad W)^b;  without M^-1 where an eigenvalue of M is
+ *   below 0.4 ---- */
+
+static int seen(const oracle *o, long i, long j, pair *ij)
+{
+  return j != i && !is_wall(o, j) && same_species(o, i, j) && near(o, i, j, ij);
+}
+
+/* b: the velocity, or (of_a) the acceleration. */
+static real gradient_of(const oracle *o, long i, int of_a, real L[3][3])
+{
+  const oracle_particle *it = &o->particle[i];
+  real m[3][3] = {{0}}, q[3][3], plain[3][3] = {{0}}, smallest = INFINITY, size = 0;
+  pair ij;
+  for (long j = 0; j < o->n; j++) {
+    const oracle_particle *other = &o->particle[j];
+    if (!seen(o, i, j, &ij)) continue;
+    const real volume = other->m / other->rho;
+    const real *b_i = of_a ? it->a : it->v, *b_j = of_a ? other->a : other->v;
+    for (int r = 0; r < 3; r++)
+      for (int c = 0; c < 3; c++) {
+        plain[r][c] += volume * (b_j[r] - b_i[r]) * ij.grad_w[c];
+        m[r][c] -= volume * ij.d[r] * ij.d[c] * ij.f;
+      }
+    size += volume * ij.grad * (of_a ? it->a_size + other->a_size : norm(it->v) + norm(other->v)) *
+            other->condition;
+  }
+  eigen(m, q);
+  for (int e = 0; e < o->dim; e++) smallest = fminl(smallest, m[e][e]);
+  const int corrected = smallest >= 0.4L;
+  for (int r = 0; r < 3; r++)
+    for (int c = 0; c < 3; c++) {
+      L[r][c] = corrected ? 0 : plain[r][c];
+      for (int e = 0; corrected && e < o->dim; e++)
+        L[r][c] += (plain[r][0] * q[0][e] + plain[r][1] * q[1][e] + plain[r][2] * q[2][e]) *
+                   q[c][e] / m[e][e];
+    }
+  return corrected ? size / smallest : size;
+}
+
+static real trace(const real L[3][3]) { return L[0][0] + L[1][1] + L[2][2]; }
+
+static void velocity_gradient(oracle *o, long i)
+{
+  oracle_particle *it = &o->particle[i];
+  pair ij;
+  it->L_size = gradient_of(o, i, 0, it->L);
+  it->v_sig = it->c;
+  for (long j = 0; j < o->n; j++) {
+    const oracle_particle *other = &o->particle[j];
+    if (!seen(o, i, j, &ij)) continue;
+    real v[3];
+    difference(it->v, other->v, v);
+    it->v_sig = fmaxl(it->v_sig, (it->c + other->c) / 2 - fminl(0, dot(v, ij.d) / ij.r));
+  }
+  const real curl[3] = {it->L[2][1] - it->L[1][2], it->L[0][2] - it->L[2][0],
+                        it->L[1][0] - it->L[0][1]};
+  const real all = fabsl(trace(it->L)) + norm(curl) + 1e-4L * it->c / o->h;
+  it->f = it->f_size = 1;
+  if (o->balsara) it->f = fabsl(trace(it->L)) / all, it->f_size = it->f + it->L_size / all;
+}
+
+static real sign(real a) { return (a > 0) - (a < 0); }
+
+static void alpha_rate(oracle *o, long i)
+{
+  oracle_particle *it = &o->particle[i];
+  const real alpha_max = o->signal_alpha > 0 ? o->signal_alpha : o->alpha, h = o->h;
+  const real divergence = trace(it->L);
+  if (o->varied == ORACLE_MORRIS_MONAGHAN) {
+    it->dalpha = -(it->alpha - o->alpha_min) * 0.2L * it->c / h +
+                 fmaxl(-divergence, 0) * (alpha_max - it->alpha);
+    it->dalpha_size = alpha_max * (it->c / h + it->L_size);
+    return;
+  }
+  real da[3][3], LL = 0, SS = 0, above = 0, below = 0;
+  const real G_size = gradient_of(o, i, 1, da);
+  for (int r = 0; r < o->dim; r++)
+    for (int c = 0; c < o->dim; c++) {
+      const real S = (it->L[r][c] + it->L[c][r]) / 2 - (r == c ? divergence / o->dim : 0);
+      LL += it->L[r][c] * it->L[c][r];
+      SS += S * S;
+    }
+  for (long j = 0; j < o->n; j++) {
+    const oracle_particle *other = &o->particle[j];
+    pair ij;
+    if (j != i && !seen(o, i, j, &ij)) continue;
+    const real mW = other->m * oracle_w(o, j == i ? 0 : ij.r);
+    above += sign(trace(other->L)) * mW;
+    below += mW;
+  }
+  const real b = 2 * powl(1 - above / below, 4) * divergence,
+             xi = b != 0 ? b * b / (b * b + SS) : 0;
+  const real A = xi * fmaxl(-(trace(da) - LL), 0), v = it->v_sig;
+  const real local = fmaxl(alpha_max * h * h * A / (v * v + h * h * A), o->alpha_min);
+  const real tau = (local > it->alpha ? 0.1L : 10) * h / v;
+  const real LL_size = it->L_size * it->L_size;
+  const real xi_size = SS + b * b > 0 ? 64 * it->L_size / sqrtl(SS + b * b) : 1;
+  const real A_size = G_size + LL_size + xi_size * (fabsl(LL) + A);
+  it->dalpha = (local - it->alpha) / tau;
+  it->dalpha_size = (alpha_max + it->alpha) / tau * (1 + h * h * A_size / (v * v));
+}
+
+static void each_fluid(oracle *o, void (*of)(oracle *o, long i))
+{
+  for (long i = 0; i < o->n; i++)
+    if (!is_wall(o, i) && !is_dust(o, i)) of(o, i);
+}
+
 void oracle_evaluate(oracle *o)
 {
   o->second_moment = second_moment(o);
@@ -666,10 +792,10 @@ void oracle_evaluate(oracle *o)
   materials(o);
   for (long i = 0; i < o->n; i++)
     if (is_wall(o, i)) wall(o, i);
-  for (long i = 0; i < o->n; i++)
-    if (!is_wall(o, i) && !is_dust(o, i)) gradient(o, i);
-  for (long i = 0; i < o->n && corrected(o); i++)
-    if (!is_wall(o, i) && !is_dust(o, i)) inverse(o, i);
+  each_fluid(o, gradient);
+  if (corrected(o)) each_fluid(o, inverse);
+  if (o->balsara || o->varied) each_fluid(o, velocity_gradient);
   for (long i = 0; i < o->n; i++)
     if (!is_wall(o, i)) rates(o, i);
+  if (o->varied) each_fluid(o, alpha_rate);
 }

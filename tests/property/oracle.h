@@ -44,6 +44,9 @@ typedef struct oracle_particle {
   real phi;          /* of the row of that name */
   real gradient[3];  /* <grad rho>^L [kg/m^4] */
   real B[3][3];      /* inverse gradient matrix, or 1 */
+  real alpha;        /* given where a switch varies it */
+  real f, f_size;    /* Balsara's */
+  real L[3][3], L_size, v_sig, dalpha, dalpha_size;
   real dx[3], a[3], drho;
   real du;                        /* rate of the energy that is integrated */
   real work, heat;                /* by compression, by all else [W/kg] */
@@ -67,6 +70,7 @@ enum { ORACLE_GROUPS = 6 };
 enum oracle_row { ORACLE_NONE, ORACLE_C1, ORACLE_C2, ORACLE_PHI }; /* density and its partners */
 enum oracle_delta { ORACLE_OFF, ORACLE_MOLTENI, ORACLE_ANTUONO, ORACLE_FOURTAKAS };
 enum oracle_correction { ORACLE_PLAIN, ORACLE_ONE_SIDED, ORACLE_MEAN };
+enum oracle_alpha { ORACLE_CONSTANT, ORACLE_MORRIS_MONAGHAN, ORACLE_CULLEN_DEHNEN };
 enum oracle_laminar { ORACLE_INVISCID, ORACLE_MORRIS, ORACLE_MCG };
 /* What is integrated; of a liquid: carried along, heated, not compressed. */
 enum oracle_energy {
@@ -90,6 +94,9 @@ typedef struct oracle {
   enum oracle_energy energy;
   real alpha, beta; /* artificial viscosity */
   real signal_alpha, signal_beta;
+  int balsara; /* switches of these two */
+  enum oracle_alpha varied;
+  real alpha_min;
   enum oracle_laminar laminar;
   int conduction;
   real epsilon; /* XSPH */

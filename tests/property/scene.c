@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -248,15 +249,23 @@ static void add_rows(const oracle *o, sph_sim *sim)
                                              corrections[o->pressure_corrected]));
 }
 
+static void add_viscosity(const oracle *o, sph_sim *sim, sph_term term)
+{
+  static const char *const alpha[] = {"", "morris-monaghan", "cullen-dehnen"};
+  char switches[64];
+  snprintf(switches, sizeof switches, "%s %s", alpha[o->varied], o->balsara ? "balsara" : "none");
+  sph_sim_add_term(sim, sph_term_switched(term, switches, (double)o->alpha_min));
+}
+
 static void add_terms(const oracle *o, sph_sim *sim)
 {
   static const char *const delta[] = {NULL, "molteni", "antuono", "fourtakas"};
   add_rows(o, sim);
   if (o->alpha > 0 || o->beta > 0)
-    sph_sim_add_term(sim, sph_term_viscosity_artificial((double)o->alpha, (double)o->beta));
+    add_viscosity(o, sim, sph_term_viscosity_artificial((double)o->alpha, (double)o->beta));
   if (o->signal_alpha > 0)
-    sph_sim_add_term(sim,
-                     sph_term_viscosity_signal((double)o->signal_alpha, (double)o->signal_beta));
+    add_viscosity(o, sim,
+                  sph_term_viscosity_signal((double)o->signal_alpha, (double)o->signal_beta));
   if (o->laminar)
     sph_sim_add_term(sim, sph_term_corrected(sph_term_viscosity_laminar(
                                                  o->laminar == ORACLE_MCG ? "mcg" : "morris"),
@@ -290,6 +299,8 @@ void scene_write(const scene *s, sph_sim *sim)
     }
     double *m = sph_group_write(group, "mass", 0), *rho = sph_group_write(group, "density", 0);
     double *u = has_energy(s) && !o->group[g].dust ? sph_group_write(group, "energy", 0) : NULL;
+    double *alpha = o->varied ? sph_group_write(group, "alpha", 0) : NULL;
+    for (long i = 0; alpha && i < n; i++) alpha[i] = (double)o->particle[first + i].alpha;
     for (long i = 0; m && rho && i < n; i++) {
       m[i] = (double)o->particle[first + i].m;
       rho[i] = (double)o->particle[first + i].rho;
@@ -334,7 +345,7 @@ scene_rates scene_evaluate(const scene *s, sph_sim *sim)
   const oracle *o = &s->o;
   scene_rates r = {.n = o->n};
   double **all[] = {&r.dx[0], &r.dx[1], &r.dx[2], &r.a[0], &r.a[1], &r.a[2],
-                    &r.drho,  &r.du,    &r.p,     &r.c,    &r.rho};
+                    &r.drho,  &r.du,    &r.p,     &r.c,    &r.rho,  &r.dalpha};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++)
     *all[k] = calloc((size_t)o->n, sizeof(double));
   int status = sph_sim_evaluate(sim);
@@ -347,6 +358,7 @@ scene_rates scene_evaluate(const scene *s, sph_sim *sim)
     copy(r.rho, first, n, sph_group_read(group, "density", 0));
     if (o->group[g].wall) continue;
     copy(r.c, first, n, sph_group_read(group, "sound_speed", 0));
+    if (o->varied) copy(r.dalpha, first, n, sph_group_rate(group, "alpha", 0));
     if (!o->summed) copy(r.drho, first, n, sph_group_rate(group, "density", 0));
     for (int k = 0; k < o->dim; k++) {
       copy(r.dx[k], first, n, sph_group_rate(group, "position", k));
@@ -361,7 +373,7 @@ scene_rates scene_evaluate(const scene *s, sph_sim *sim)
 void scene_rates_free(scene_rates *r)
 {
   double *all[] = {r->dx[0], r->dx[1], r->dx[2], r->a[0], r->a[1], r->a[2],
-                   r->drho,  r->du,    r->p,     r->c,    r->rho};
+                   r->drho,  r->du,    r->p,     r->c,    r->rho,  r->dalpha};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) free(all[k]);
 }
 
@@ -371,5 +383,6 @@ int scene_rates_same(const scene_rates *a, const scene_rates *b)
   return a->n == b->n && !memcmp(a->dx[0], b->dx[0], bytes) && !memcmp(a->a[0], b->a[0], bytes) &&
          !memcmp(a->a[1], b->a[1], bytes) && !memcmp(a->a[2], b->a[2], bytes) &&
          !memcmp(a->drho, b->drho, bytes) && !memcmp(a->du, b->du, bytes) &&
-         !memcmp(a->p, b->p, bytes) && !memcmp(a->rho, b->rho, bytes);
+         !memcmp(a->p, b->p, bytes) && !memcmp(a->dalpha, b->dalpha, bytes) &&
+         !memcmp(a->rho, b->rho, bytes);
 }

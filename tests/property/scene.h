@@ -47,7 +47,7 @@ void scene_write(const scene *s, sph_sim *sim);
  * To be freed by scene_rates_free. */
 typedef struct scene_rates {
   long n;
-  double *dx[3], *a[3], *drho, *du, *p, *c, *rho;
+  double *dx[3], *a[3], *drho, *du, *p, *c, *rho, *dalpha;
 } scene_rates;
 scene_rates scene_evaluate(const scene *s,
                            sph_sim *sim); /* fails the test where the library fails */

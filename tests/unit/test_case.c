@@ -369,6 +369,30 @@ static void jitter_moves_particles_off_their_lattice(void **state)
   assert_true(fabs(together / N) < 4 * one * one / sqrt(N));
 }
 
+/* A switch that varies alpha gives particles a field of it, which starts at its least. */
+static void switches_of_viscosity(void **state)
+{
+  static const char *const set[][2] = {
+      {"terms.viscosity-artificial={alpha: 2, beta: 4, switch: balsara morris-monaghan, "
+       "alpha_min: 0.2}",
+       "terms.pressure={}"},
+      {"terms.viscosity-signal={alpha: 2, switch: cullen-dehnen}", "terms.pressure={}"},
+      {"terms.viscosity-artificial={alpha: 2, switch: balsara}", "terms.pressure={}"}};
+  static const double least[] = {0.2, 0, -1};
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    sph_error error = {0};
+    sph_case *c = sph_case_read_text("small.yml", small, strlen(small), 2, set[k], &error);
+    sph_sim *sim = c ? sph_case_build(c, 1, &error) : NULL;
+    if (!sim) fail_msg("%s", error.text);
+    const double *alpha = sph_group_read(sph_sim_group(sim, "water"), "alpha", 0);
+    assert_int_equal(alpha != NULL, least[k] >= 0);
+    if (alpha) assert_true(*alpha == least[k]);
+    sph_sim_free(sim);
+    sph_case_free(c);
+  }
+}
+
 static void heat_that_cannot_be(void **state)
 {
   static const char text[] = "dimension: 1\nspacing: 0.1\ngroups:\n  water:\n    kind: fluid\n"
@@ -556,6 +580,7 @@ int main(void)
       cmocka_unit_test(jitter_moves_particles_off_their_lattice),
       cmocka_unit_test(materials_are_what_the_file_says),
       cmocka_unit_test(a_preset_without_that_sound_speed),
+      cmocka_unit_test(switches_of_viscosity),
       cmocka_unit_test(heat_that_cannot_be),
       cmocka_unit_test(a_wall_has_no_scales),
       cmocka_unit_test(words_of_the_library),
