@@ -187,12 +187,12 @@ SPH_API sph_term sph_term_viscosity_artificial(double alpha, double beta);
 /* Artificial viscosity with a signal velocity (Monaghan 1997) and heating: alpha 0.5 to 1, beta
  * usually 3; both >= 0. */
 SPH_API sph_term sph_term_viscosity_signal(double alpha, double beta);
-/* An artificial viscosity that acts where it is needed.  switches: words of "none", "balsara" (1995:
- * not in shear) and one of those that make alpha a field of each particle, integrated with the
- * state, between alpha_min and the alpha of the term: "morris-monaghan" (1997, alpha_min usually
- * 0.1 of alpha) or "cullen-dehnen" (2010, alpha_min usually 0).  As "balsara morris-monaghan".
- * beta scales with alpha.  One artificial viscosity of a simulation may have them; it is explicit.
- * The field "alpha" starts with alpha_min. */
+/* An artificial viscosity that acts where it is needed.  switches: words of "none", "balsara"
+ * (1995: not in shear) and one of those that make alpha a field of each particle, integrated with
+ * the state, between alpha_min and the alpha of the term: "morris-monaghan" (1997, alpha_min
+ * usually 0.1 of alpha) or "cullen-dehnen" (2010, alpha_min usually 0).  As "balsara
+ * morris-monaghan".  beta scales with alpha.  One artificial viscosity of a simulation may have
+ * them; it is explicit.  The field "alpha" starts with alpha_min. */
 SPH_API sph_term sph_term_switched(sph_term viscosity, const char *switches, double alpha_min);
 /* Laminar viscosity with heating, eta that of the groups (sph_group_set_viscosity): "morris"
  * (Morris, Fox & Zhu 1997) or "mcg" (Monaghan, Cleary & Gingold: central, keeps angular momentum).

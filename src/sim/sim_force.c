@@ -93,6 +93,8 @@ int sph_sim_force(sph_sim *sim, const sph_group *wall, const double *about, sph_
   sph_evaluation e;
   int status = check(sim, wall, about, force);
   if (!status) status = sph_sim_force_begin(&e, sim, NULL);
+  if (!status) status = sph_sim_gradients(&e);
+  if (!status) status = sph_sim_switches(&e);
   if (status) return status;
   double from[3] = {0};
   for (int d = 0; about && d < sim->dim; d++) from[d] = about[d];

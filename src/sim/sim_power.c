@@ -102,6 +102,7 @@ static int evaluate(sph_sim *sim, unsigned bits, const sph_called_term *call, N_
   e.part = &part;
   status = sph_sim_bodies_add(&e);
   if (!status) status = sph_sim_gradients(&e);
+  if (!status) status = sph_sim_switches(&e);
   if (!status) status = sph_sim_shift_add(&e);
   if (!status) status = sph_sim_drag_add(&e);
   if (!status) status = sph_sim_pairs_add(&e);

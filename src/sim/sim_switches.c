@@ -112,7 +112,7 @@ static void set(const sph_evaluation *e, int g, long s, long i)
   record[slot_f(dim)] = (set->bits & SPH_BALSARA) && all > 0 ? compressed / all : 1;
   record[slot_alpha(dim)] = q < 0 ? 1 : view->s[q][i] / sph_term_set_alpha_max(set);
   if (sorted->shock) keep(sim, view, sorted, s, i, L);
-  if (!(set->bits & SPH_MORRIS_MONAGHAN)) return;
+  if (!(set->bits & SPH_MORRIS_MONAGHAN) || !view->ds[q]) return; /* no rates are wanted */
   const double alpha = view->s[q][i];
   view->ds[q][i] += (set->alpha_min - alpha) * SPH_SWITCH_DECAY * c / sim->h +
                     fmax(-divergence, 0) * (sph_term_set_alpha_max(set) - alpha);

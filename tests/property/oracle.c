@@ -5,8 +5,7 @@
 
 static const real pi = 3.14159265358979323846264338327950288L;
 
-/* ---- kernels:  W = sigma/h^d w(q),  F = W'/r = sigma/h^(d+2) f(q),  f = w'/q,  q = r/h < kappa
- * ---- */
+/* ---- kernels: W = sigma/h^d w(q), F = W'/r = sigma/h^(d+2) f(q), f = w'/q, q < kappa ---- */
 
 static real kappa(const oracle *o)
 {
