@@ -168,8 +168,9 @@ static double drift(const sph_case_curve *c, const double window[2])
   double most = c->n ? 0 : NAN;
   for (long k = 0; k < c->n; k++) {
     double change = fabs(c->y[k] - c->y[0]);
-    if (c->x[k] >= window[0] && c->x[k] <= window[1] && !(change <= most)) most = change;
+    if (c->x[k] < window[0] || c->x[k] > window[1]) continue;
     if (isnan(change)) return NAN;
+    most = fmax(most, change);
   }
   return most;
 }

@@ -63,6 +63,19 @@ static int read_table(const comparer *a, section *s)
   return status;
 }
 
+/* The periodic box of the case. */
+static void enclose(const comparer *a, sph_operator_def *def)
+{
+  const sph_case_node *periodic = child_of(a->c->root, "periodic");
+  double upper[3] = {0};
+  if (!periodic) return;
+  sph_case_reader_vector(periodic, "lower", def->origin);
+  sph_case_reader_vector(periodic, "upper", upper);
+  for (int d = 0; d < 3; d++) def->length[d] = upper[d] - def->origin[d];
+  for (const sph_case_node *axis = child_of(periodic, "axes")->first; axis; axis = axis->next)
+    def->periodic[*axis->text - 'x'] = 1;
+}
+
 /* Its points in space, and the operator. */
 static int prepare(const comparer *a, section *s)
 {
@@ -74,6 +87,7 @@ static int prepare(const comparer *a, section *s)
                           .h = ratio * get_number(a->c->root, "spacing", 0),
                           .kernel = name,
                           .lower_order = 1};
+  enclose(a, &def);
   sph_case_reader_vector(a->kind, "through", through);
   s->place = sph_memory_new((size_t)s->n + 1, 5 * sizeof *s->place, "a section", a->error);
   if (!s->place) return SPH_ERR_MEMORY;

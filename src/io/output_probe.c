@@ -362,7 +362,7 @@ static int check_grid(context *c, const sph_probe_def *def, const long n[2])
   for (int k = 0; k < 2; k++) {
     const double *edge = k ? def->across : def->along;
     const int none = edge[0] == 0 && edge[1] == 0 && edge[2] == 0;
-    if (n[k] < 1 || (double)n[0] * (double)n[k] > PLACES_MAX)
+    if (n[k] < 1 || (double)n[0] * (double)n[1] > PLACES_MAX)
       return sph_error_set(&c->error, SPH_ERR_ARGUMENT,
                            "probe %s: %ld x %ld places; right is 1 to %g", c->name, n[0], n[1],
                            PLACES_MAX);

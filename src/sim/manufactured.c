@@ -119,6 +119,7 @@ static int body(const sph_term *term, const sph_particles *p)
 {
   const solution *s = term->ctx;
   if (strcmp(p->group, s->group->name) != 0) return SPH_OK;
+  if (s->group->eos.thermal || s->group->eos.dust) return SPH_ERR_ARGUMENT; /* set since */
   for (long i = 0; i < p->n; i++) {
     double x[3] = {0}, s_v[3] = {0}, s_rho = 0;
     for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];

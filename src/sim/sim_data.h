@@ -177,7 +177,6 @@ struct sph_sim {
   double pairs_now; /* directed pairs inside the support, at the last list build */
   double pairs, seconds, rhs_seconds, solve_seconds; /* solve: implicit stages, with f in them */
   long list_builds, revision, matrices;              /* matrices: that implicit stages filled */
-  long bounced; /* particles that came back from behind a mirror */
 };
 
 /* Any call on a simulation without an error?  NULL: no. */

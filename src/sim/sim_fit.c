@@ -47,6 +47,8 @@ static int bounded(sph_sim *sim)
   unsigned without = SPH_SIGNAL | SPH_CONDUCTIVITY | SPH_STRESS;
   if (sim->part[SPH_WHOLE].shift) without |= SPH_SHIFTS;
   if (sph_term_set_alpha(&sim->terms) >= 0) without |= SPH_ARTIFICIAL; /* rates of alpha */
+  if (sim->loop_terms & SPH_LAMINAR_CORRECTED) without |= SPH_MORRIS | SPH_MCG;
+  if (sim->loop_terms & SPH_PRESSURE_ONE_SIDED) without |= SPH_PRESSURE_FORCE;
   const char *term = first_of(sim, without);
   if (!term) return SPH_OK;
   return sph_sim_fail(sim, SPH_ERR_ARGUMENT,

@@ -1,3 +1,4 @@
+#include "shift_pair.h"
 #include "sim_implicit.h"
 #include "switch_pair.h"
 
@@ -9,6 +10,7 @@ static double held(const sph_sim *sim)
     const sph_sorted *sorted = &sim->sorted[g];
     int arrays = (int)sorted->stride + sim->dim + (sorted->phi != NULL);
     for (int s = 0; s < SPH_PAIR_SUMS; s++) arrays += sorted->sum[s] != NULL;
+    if (sorted->shifted) arrays += shift_slots(sim->dim);
     if (sorted->shock) arrays += switch_slots(sim->dim);
     doubles += (double)sorted->room * arrays;
     for (int field = 0; field < SPH_FIELDS; field++)

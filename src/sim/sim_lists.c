@@ -99,7 +99,6 @@ int sph_sim_lists_keep(sph_sim *sim, sph_keep *keep)
     const int mirror = sim->group[g]->model == SPH_MODEL_MIRROR; /* its ghosts are made again */
     sph_keep_enter(keep, sim->group[g]->name);
     if (mirror) status = sph_keep_real(keep, "placed", 3, sim->group[g]->placed);
-    if (mirror && !status) status = sph_keep_integer(keep, "bounced", 1, &sim->bounced);
     for (int d = 0; !mirror && d < sim->dim && d < 3; d++)
       status = sph_keep_real(keep, axis[d], sim->group[g]->n, sim->sorted[g].built[d]);
     sph_keep_leave(keep);

@@ -109,17 +109,24 @@ static int in_front(sph_sim *sim, const sph_group *group, const sph_plane *plane
   return SPH_OK;
 }
 
-/* Density does not diffuse from the ghosts of one liquid to another, and they are in one set. */
 static int one_liquid(sph_sim *sim, const sph_group *group)
 {
-  for (int f = 0; f < sim->groups && (sim->terms.bits & SPH_DIFFUSION); f++)
+  for (int f = 0; f < sim->groups; f++)
     if (!sim->group[f]->wall && !sim->group[f]->eos.dust &&
         !sph_sim_interaction_same_fluid(sim->group[f], group))
       return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                           "mirror %s: %s is another liquid; right are adami walls where two of "
-                          "them meet density diffusion (delta)",
+                          "them meet density diffusion (delta) or a density reset",
                           group->name, sim->group[f]->name);
   return SPH_OK;
+}
+
+int sph_sim_mirror_one_liquid(sph_sim *sim)
+{
+  int status = SPH_OK;
+  for (int g = 0; !status && g < sim->groups; g++)
+    if (sim->group[g]->model == SPH_MODEL_MIRROR) status = one_liquid(sim, sim->group[g]);
+  return status;
 }
 
 static int check(sph_sim *sim, int g)
@@ -128,7 +135,8 @@ static int check(sph_sim *sim, int g)
   int status = group->n
                    ? sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                                   "mirror %s has particles; right are planes alone", group->name)
-                   : one_liquid(sim, group);
+               : sim->terms.bits & SPH_DIFFUSION ? one_liquid(sim, group)
+                                                 : SPH_OK;
   for (int k = 0; !status && k < group->boundary.planes; k++) {
     const sph_plane *plane = &group->boundary.plane[k];
     for (int d = 0; d < 3; d++)
@@ -445,6 +453,5 @@ long sph_sim_mirror_bounce(sph_sim *sim)
       }
     }
   if (bounced) sph_sim_changed(sim);
-  sim->bounced += bounced;
   return bounced;
 }

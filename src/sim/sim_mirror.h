@@ -7,6 +7,8 @@
 int sph_sim_mirror_take(sph_sim *sim, const sph_group *group, sph_boundary *boundary);
 /* Before the run: do the planes of all mirrors fit each other, the box and the fluids? */
 int sph_sim_mirror_check(sph_sim *sim);
+/* An error where fluids differ and images of all are in one set. */
+int sph_sim_mirror_one_liquid(sph_sim *sim);
 /* At a list build: the ghosts of the positions in `built`, theirs too; with room for them. */
 int sph_sim_mirror_make(sph_sim *sim);
 /* Has a mirror moved so far since the build that fluid without an image may be near it? */

@@ -24,7 +24,8 @@
 enum {
   READ_EOS = SPH_PRESSURE_FORCE | SPH_ARTIFICIAL | SPH_SIGNAL | SPH_CONDUCTIVITY | SPH_CONDUCTION |
              SPH_STRESS,
-  WALLS_READ_EOS = SPH_CONTINUITY | SPH_DIFFUSION, /* mass, phi, density of wall particles */
+  WALLS_READ_EOS =
+      SPH_CONTINUITY | SPH_DIFFUSION | SPH_XSPH, /* mass, phi, density of wall particles */
   TILES_READ_EOS = 1 << SPH_TILE_PRESSURE | 1 << SPH_TILE_SOUND_SPEED | 1 << SPH_TILE_ENERGY |
                    1 << SPH_TILE_TEMPERATURE
 };

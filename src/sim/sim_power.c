@@ -99,6 +99,7 @@ static int evaluate(sph_sim *sim, unsigned bits, const sph_called_term *call, N_
   if (status) return status;
   part.gravity = (bits & SPH_UNIFORM) != 0;
   if (bits & SPH_PRESSURE_FORCE) part.terms |= sim->loop_terms & SPH_CONTINUITY; /* its work */
+  part.terms |= fluid_corrections(part.terms | (sim->loop_terms & SPH_CORRECTED));
   e.part = &part;
   status = sph_sim_bodies_add(&e);
   if (!status) status = sph_sim_gradients(&e);

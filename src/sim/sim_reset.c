@@ -12,6 +12,7 @@
 
 #include "memory.h"
 #include "reset_loops.h"
+#include "sim_mirror.h"
 #include "sim_rhs.h"
 #include "sphode/correction.h"
 
@@ -89,6 +90,8 @@ int sph_sim_reset_check(sph_sim *sim)
       return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                           "density-reset: density is a sum over neighbours already (term "
                           "summation): leave one of them out");
+  for (int k = 0; k < sim->modifiers; k++)
+    if (sim->modifier[k].modifier.modify == modify) return sph_sim_mirror_one_liquid(sim);
   return SPH_OK;
 }
 

@@ -270,5 +270,7 @@ int sph_sim_shift_step(void *ctx, sph_sim *sim)
   if (!status) status = sph_sim_rhs_part(sim, &part, sim->time, sim->y, rate);
   if (!status) N_VLinearSum(1, sim->y, tau, rate, sim->y);
   N_VDestroy(rate);
-  return status > 0 ? SPH_ERR_STATE : status ? status : 1;
+  if (status > 0)
+    return sph_sim_fail(sim, SPH_ERR_STEP, "shifting at t = %g s: %s", sim->time, sim->retry);
+  return status ? status : 1;
 }

@@ -346,6 +346,10 @@ static int check_viscosity(const sph_term_set *set, const sph_term *term, sph_er
   int status = not_below_zero(term->name, "alpha", term->alpha, error);
   if (!status) status = not_below_zero(term->name, "beta", term->beta, error);
   if (!status) status = not_below_zero(term->name, "alpha_min", least, error);
+  if (!status && sph_term_set_alpha(set) >= 0 && !(term->alpha > 0))
+    status = sph_error_set(error, SPH_ERR_ARGUMENT,
+                           "term %s: alpha = %g, up to which its switch goes; right is > 0",
+                           term->name, term->alpha);
   if (!status && (term->switches || sph_term_set_alpha(set) >= 0) && least > term->alpha)
     status =
         sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: alpha_min = %g; right is up to alpha = %g",
