@@ -129,6 +129,16 @@ int sph_sim_mirror_one_liquid(sph_sim *sim)
   return status;
 }
 
+/* Ghosts have no gradient matrices: those of the mean form would be reflected ones. */
+static int uncorrected(sph_sim *sim, const sph_group *group)
+{
+  if (!(sim->terms.bits & (SPH_PRESSURE_MEAN | SPH_LAMINAR_MEAN))) return SPH_OK;
+  return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                      "mirror %s: its images have no gradient matrices, which correction \"mean\" "
+                      "takes from both ends; right is \"one-sided\", \"none\", or an adami wall",
+                      group->name);
+}
+
 static int check(sph_sim *sim, int g)
 {
   sph_group *group = sim->group[g];
@@ -137,6 +147,7 @@ static int check(sph_sim *sim, int g)
                                   "mirror %s has particles; right are planes alone", group->name)
                : sim->terms.bits & SPH_DIFFUSION ? one_liquid(sim, group)
                                                  : SPH_OK;
+  if (!status) status = uncorrected(sim, group);
   for (int k = 0; !status && k < group->boundary.planes; k++) {
     const sph_plane *plane = &group->boundary.plane[k];
     for (int d = 0; d < 3; d++)
