@@ -142,7 +142,7 @@ static int take(cloud *all, long n, int dim, sph_error *error)
   for (int d = 0; d < 3; d++) all->x[d] = memory + d * n;
   all->volume = memory + 3 * n;
   all->f = memory + 4 * n;
-  all->index = (long *)(memory + 5 * n);
+  all->index = (void *)(memory + 5 * n);
   return SPH_OK;
 }
 

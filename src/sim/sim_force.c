@@ -103,7 +103,8 @@ int sph_sim_force(sph_sim *sim, const sph_group *wall, const double *about, sph_
   for (size_t k = 0; !status && k < sizeof share / sizeof *share; k++) {
     sph_part part;
     status = sph_sim_parts_of(sim, &part, share[k].bits, 0);
-    if (!status) add(&e, &part, wall, from, (double *)((char *)force + share[k].to), NULL);
+    void *to = (char *)force + share[k].to;
+    if (!status) add(&e, &part, wall, from, to, NULL);
   }
   return status;
 }
