@@ -204,10 +204,9 @@ static int near(const void *ctx, int set, const double *lo, const double *hi, do
   const int z = all->def.dim - 1;
   const long cells = grid->cells[0] * grid->cells[1] * grid->cells[2];
   const double reach2 = reach * reach * (1 + 1e-12);
-  double gap2[2][COLUMNS];
+  double gap2[2][COLUMNS] = {{0}};
   long from[2] = {0, 0};
   int count[2] = {1, 1}, n = 0;
-  gap2[0][0] = gap2[1][0] = 0;
   for (int d = 0; d < z; d++)
     if (!(count[d] = across(grid, d, lo[d], hi[d], reach, &from[d], gap2[d]))) {
       sph_stretch_add(stretch, &n, max, 0, grid->start[cells]);

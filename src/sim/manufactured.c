@@ -232,7 +232,7 @@ static double distance(const solution *s, double t, const double *const x[3],
                        const double *const field[3], long i, int first, int n)
 {
   double at[3] = {0}, f[FIELDS], sum = 0;
-  for (int d = 0; d < s->group->dim; d++) at[d] = x[d][i];
+  for (int d = 0; d < 3 && x[d]; d++) at[d] = x[d][i];
   fields_at(s, at, t, f);
   for (int c = 0; c < n; c++) sum += (field[c][i] - f[first + c]) * (field[c][i] - f[first + c]);
   return sqrt(sum);
@@ -253,11 +253,11 @@ int sph_manufactured_error_of(const sph_group *group, const char *field,
                         "pressure",
                         field);
   const int n = k ? 1 : group->dim, first = k ? RHO + k - 1 : V;
-  int read = 1;
   for (int d = 0; d < group->dim; d++)
-    read &= (x[d] = sph_group_read(group, "position", d)) != NULL;
-  for (int c = 0; c < n; c++) read &= (value[c] = sph_group_read(group, names[k], c)) != NULL;
-  if (!read || !sph_sim_data_ok(group->sim)) return sph_sim_status(group->sim);
+    if (!(x[d] = sph_group_read(group, "position", d))) return sph_sim_status(group->sim);
+  for (int c = 0; c < n; c++)
+    if (!(value[c] = sph_group_read(group, names[k], c))) return sph_sim_status(group->sim);
+  if (!sph_sim_data_ok(group->sim)) return sph_sim_status(group->sim);
   *error = (sph_manufactured_error){0};
   for (long i = 0; i < group->n; i++) {
     const double e = distance(s, sph_sim_time(group->sim), x, value, i, first, n);
