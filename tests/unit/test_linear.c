@@ -55,8 +55,8 @@ static void solve_dense(void)
 /* Right-hand sides of solutions that are rough, guesses that are wrong. */
 static void fill(int columns, uint64_t seed)
 {
-  const double *x[COLUMNS];
-  double *b[COLUMNS];
+  const double *x[COLUMNS] = {0};
+  double *b[COLUMNS] = {0};
   p.columns = columns;
   for (int c = 0; c < columns; c++) {
     x[c] = p.x[c], b[c] = p.b[c];
