@@ -1,0 +1,288 @@
+"""The Python package against the C library: prints TAP.  test_bindings.py BUILDDIR SRCDIR, in an empty directory."""
+import gc
+import math
+import os
+import signal
+import subprocess
+import sys
+import traceback
+
+import numpy as np
+
+import sphode
+from sphode import ffi, lib, term
+
+BUILD, SOURCE = sys.argv[1:3]
+tests = []
+
+
+def test(function):
+    tests.append(function)
+
+
+def raised(kind, function, *arguments, **options):
+    """The exception of that kind that function raises."""
+    try:
+        function(*arguments, **options)
+    except kind as exception:
+        return exception
+    raise AssertionError(f"no {kind.__name__}")
+
+
+def column(*more, walls=True):
+    sim = sphode.Simulation(dim=2, dx=0.05)
+    water = sim.box("water", (0, 0), (0.5, 0.5), 1000)
+    water.eos = sphode.eos.tait(1000, 30, 7)
+    if walls:
+        tank = sim.walls("tank", (0, 0), (1, 1), 1000)
+        tank.boundary = sphode.boundary.adami()
+    sim.add(term.continuity(), term.pressure(), term.viscosity_artificial(0.02, 0), *more)
+    return sim, water
+
+
+@test
+def layout_is_that_of_the_compiler():
+    names = [name for name in ffi.list_types()[0] if name != "sph_motion"]  # a function
+    structs = [s for s in map(ffi.typeof, names) if s.kind == "struct" and s.fields is not None]
+    assert len(structs) > 40
+    lines, ours = [], []
+    for s in structs:
+        lines.append(f'printf("%s %zu\\n", "{s.cname}", sizeof({s.cname}));')
+        ours.append(f"{s.cname} {ffi.sizeof(s)}")
+        for member, field in s.fields:
+            if field.bitsize < 0:
+                lines.append(f'printf("%s.%s %zu\\n", "{s.cname}", "{member}", offsetof({s.cname}, {member}));')
+                ours.append(f"{s.cname}.{member} {field.offset}")
+    with open("layout.c", "w") as file:
+        file.write("#include <sphode.h>\n#include <stddef.h>\n#include <stdio.h>\nint main(void) {"
+                   + "\n".join(lines) + "return 0; }\n")
+    subprocess.run(os.environ.get("CC", "cc").split()
+                   + ["-I", SOURCE + "/include", "layout.c", "-o", "layout"], check=True)
+    theirs = subprocess.run(["./layout"], check=True, capture_output=True, text=True).stdout.split("\n")
+    assert theirs[:-1] == ours, set(theirs) ^ set(ours)
+
+
+@test
+def every_function_is_in_the_library():
+    with open(sphode.declarations_path) as file:
+        declared = {word.split("(")[0].lstrip("*") for line in file for word in line.split()
+                    if word.lstrip("*").startswith("sph_") and "(" in word}
+    functions = [name for name in dir(lib) if name.startswith("sph_")]
+    for name in functions:
+        getattr(lib, name)
+    assert len(functions) > 200 and len(set(functions) - declared) < 10
+
+
+@test
+def a_case_has_the_bits_of_the_program():
+    path, settings = SOURCE + "/cases/sod-1d.yml", {"spacing": "0.01", "run.end": "0.02"}
+    subprocess.run([BUILD + "/sphode", "run", "-q", "-o", "program", path]
+                   + [f"--set={key}={value}" for key, value in settings.items()], check=True)
+    case = sphode.Case(path, settings)
+    sim = case.simulation("python")
+    sim.run(case.end)
+    last = {field: sim.group("gas").array(field) for field in ("position", "velocity", "density")}
+    comparisons = case.compare(sim, "python")
+    sim.close()
+    assert len(comparisons) > 1 and all(c.value > 0 for c in comparisons)
+    a, b = sphode.Run("program"), sphode.Run("python")
+    assert len(a) == len(b) >= 2 and a.times[-1] == 0.02
+    for k in range(len(a)):
+        for field, values in a[k]["gas"].items():
+            assert (values == b[k]["gas"][field]).all(), field
+    found = a[-1]["gas"]
+    assert (found["velocity"] == last["velocity"]).all() and (found["density"] == last["density"]).all()
+    table = a.table()
+    assert table["time"][-1] == 0.02 and a.units()["time"] == "s" and a.units()["step"] == "1"
+
+
+@test
+def views_are_the_memory_of_the_library():
+    sim, water = column()
+    x, y = water["position"]
+    pointer = lib.sph_group_read(water.pointer, b"position", 1)
+    assert y.raw.ctypes.data == int(ffi.cast("intptr_t", pointer))
+    y[3] = 0.123
+    assert pointer[3] == 0.123
+    y += 1.0
+    y *= np.full(len(y), 2.0)
+    assert pointer[3] == 2 * (0.123 + 1.0)
+    np.add(y, 1, out=y)
+    assert pointer[3] == 2 * (0.123 + 1.0) + 1
+    assert type(x + y) is np.ndarray and x.sum() == np.sum(x)
+    assert math.isclose(sum(x), x.sum()) and math.isclose(np.dot(x, y), (x * y).sum())
+    assert not np.shares_memory(np.asarray(x), x.raw) and not np.shares_memory(x[2:4], x.raw)
+    assert (np.concatenate([x, y]) == np.append(x.raw, y.raw)).all()
+    assert len(x) == len(water) == 100
+
+
+@test
+def views_end_when_the_simulation_goes_on():
+    sim, water = column()
+    going_on = [lambda: sim.step(), lambda: sim.run(sim.time + 0.01), sim.evaluate, sim.close]
+    for go in going_on:
+        x, lasting = water["position"][0], water.array("position")
+        go()
+        for use in (lambda: x[0], lambda: x + 1, lambda: np.sin(x), lambda: np.sum(x), lambda: x.raw,
+                    lambda: x.__setitem__(0, 1.0), lambda: np.array(x), lambda: len(x), lambda: list(x),
+                    lambda: x.max()):
+            assert "position[0]" in str(raised(sphode.Ended, use))
+        assert lasting.shape == (100, 2) and np.isfinite(lasting).all()
+    raised(sphode.Error, len, water)
+    sim, water = column()
+    x = water["position"][0]
+    water.call("add_box", (0.55, 0.05), (0.6, 0.1), 1000.0)
+    raised(sphode.Ended, lambda: x[0])
+
+
+@test
+def what_is_written_between_steps_is_not_lost():
+    ends = []
+    for say in (True, False):
+        sim, water = column(term.gravity((0, -9.81)))
+        sim.step(3)
+        u, v = water["velocity"]
+        u += 0.1
+        if say:
+            sim.call("changed")
+        sim.step(3)
+        ends.append(water.array("velocity"))
+    assert (ends[0] == ends[1]).all() and abs(ends[0][:, 0].mean() - 0.1) < 0.05
+    rate = water.rate("velocity", 0) if sim.evaluate() is None else None
+    assert isinstance(raised(ValueError, rate.__setitem__, 0, 1.0), ValueError)
+
+
+@test
+def a_body_force_in_python_is_gravity():
+    seen = set()
+
+    def down(p):
+        seen.add((p.group, p.n, p.dim))
+        p.a[1] -= 9.81
+        assert p.u is None and p.ds is None and len(p.x) == 2 and (p.rho > 900).all()
+
+    a, water = column(term.gravity((0, -9.81)), walls=False)  # walls know of a uniform force
+    b, other = column(sphode.body(down), walls=False)
+    for sim, group in ((a, water), (b, other)):
+        group["velocity"][0][:] = group["position"][1]
+        sim.integrator("leapfrog", dt_fixed=2e-4)
+        sim.run(0.05)
+    assert seen == {("water", 100, 2)}
+    v, w = water.array("velocity"), other.array("velocity")
+    assert abs(v - w).max() < 1e-12 and abs(v[:, 1].mean() + 9.81 * 0.05) < 1e-12 and v[:, 0].std() > 0.1
+
+
+@test
+def an_exception_comes_out_and_nothing_is_lost():
+    class Mine(Exception):
+        pass
+
+    kept = []
+
+    def failing(p):
+        kept.append(p.x[0])
+        if p.t > 0.02:
+            raise Mine("at t = %g" % p.t)
+
+    sim, water = column(sphode.body(failing), sphode.output.series("failed", 0.005, None, 0))
+    exception = raised(Mine, sim.run, 1.0)
+    assert "failing" in [frame.name for frame in traceback.extract_tb(exception.__traceback__)]
+    assert 0.015 < sim.time <= 0.0201 and np.isfinite(water.array("velocity")).all()
+    after = raised(sphode.Error, sim.step)
+    assert after.status == lib.SPH_ERR_STOPPED and after.name == "SPH_ERR_STOPPED" and "failing" in str(after)
+    raised(sphode.Ended, lambda: kept[0][0])
+    with open("failed/series.csv") as file:
+        assert len(file.readlines()) >= 4
+
+
+@test
+def ctrl_c_stops_a_run():
+    def interrupted(p):
+        if p.t > 0.01:
+            signal.raise_signal(signal.SIGINT)
+
+    sim, _ = column(sphode.body(interrupted))
+    raised(KeyboardInterrupt, sim.run, 1.0)
+    sim, _ = column()
+    stop = raised(sphode.Error, sim.run, 1.0, progress=lambda s: s.time > 0.01)
+    assert stop.name == "SPH_ERR_STOPPED" and 0.01 < sim.time < 0.03
+
+
+@test
+def mistakes_are_told():
+    assert "dim = 4" in str(raised(sphode.Error, sphode.Simulation, dim=4, dx=1))
+    assert "h_over_dx" in str(raised(TypeError, sphode.Simulation, dim=2, dx=1, h_by_dx=2))
+    sim, water = column()
+    assert "velocity" in str(raised(KeyError, lambda: water["velocty"]))
+    assert "tank" in str(raised(KeyError, sim.group, "tnak"))
+    assert "ideal_gas" in str(raised(AttributeError, lambda: sphode.eos.ideal))
+    raised(ValueError, sim.box, "more", (0,), (1, 1), 1000)
+    raised(TypeError, term.gravity, 1, 2)
+    with open("bad.yml", "w") as file:
+        file.write("dimension: 2\nspacing: 1 s\n")
+    error = raised(sphode.Error, sphode.Case, "bad.yml")
+    assert str(error).startswith("bad.yml:2:10: ") and error.name == "SPH_ERR_PARSE"
+    assert "'spacng'" in str(raised(sphode.Error, sphode.Case, SOURCE + "/cases/sod-1d.yml", {"spacng": 1}))
+
+
+@test
+def nothing_is_freed_too_early():
+    for k in range(30):
+        sim, water = column(sphode.body(lambda p: None, name=f"own{k}", reads=""))
+        sim.add(sphode.output.series_def({"directory": "early", "interval": 0.01, "monitors": 1,
+                                          "monitor": [{"name": f"front{k}", "type": "front"}]}))
+        gc.collect()
+        sim.step()
+        eos = sphode.eos.tait_matched(water.eos, 800.0, 7.0)
+        gc.collect()
+        assert ffi.string(eos.name) == b"tait" and math.isclose(eos.rho0 * eos.c0 ** 2, 1000 * 30 ** 2)
+    points = np.random.default_rng(1).permutation(np.argwhere(np.ones((5, 5))) * 0.1)
+    sim = sphode.Simulation(dim=2, dx=0.1)
+    group = sim.group("dots", "fluid")
+    group.add_points(points, 1.0)
+    assert (group.array("position") == points).all()
+
+
+@test
+def another_version_is_refused():
+    with open(sphode.declarations_path) as file:
+        text = file.read()
+    with open("other.h", "w") as file:
+        file.write(text.replace(f'"{sphode.version}"', '"0.0.1"', 1))
+    found = subprocess.run([sys.executable, "-c", "import sphode"], capture_output=True, text=True,
+                           env=dict(os.environ, SPHODE_DECLARATIONS="other.h"), check=False)
+    assert found.returncode != 0 and "0.0.1" in found.stderr
+
+
+@test
+def pkg_config_finds_it():
+    os.makedirs("pc", exist_ok=True)
+    with open("pc/sphode.pc", "w") as file:
+        file.write(f"library={sphode.library_path}\ndeclarations={sphode.declarations_path}\n\n"
+                   "Name: sphode\nDescription: .\nVersion: 1\n")
+    environment = {k: v for k, v in os.environ.items() if not k.startswith("SPHODE_")}
+    for path, right in (("pc", True), ("nowhere", False)):
+        found = subprocess.run([sys.executable, "-c", "import sphode; print(sphode.version)"],
+                               env=dict(environment, PKG_CONFIG_PATH=path, PKG_CONFIG_LIBDIR=path),
+                               capture_output=True, text=True, check=False)
+        assert (found.stdout.strip() == sphode.version) == right, found
+    assert "pkg-config knows none" in found.stderr
+
+
+@test
+def the_example_is_right():
+    done = subprocess.run([sys.executable, SOURCE + "/python/examples/sloshing.py", "16", "sloshing.png"],
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "missing" in done.stdout or os.path.getsize("sloshing.png") > 20000
+
+
+print(f"1..{len(tests)}")
+for number, function in enumerate(tests, 1):
+    name = function.__name__.replace("_", " ")
+    try:
+        function()
+        print(f"ok {number} - {name}", flush=True)
+    except BaseException:
+        print(f"not ok {number} - {name}")
+        print("# " + traceback.format_exc().replace("\n", "\n# "), flush=True)
