@@ -18,7 +18,7 @@ typedef struct prog_options {
   const char *set[PROG_SETS];
   int sets;
   int threads; /* 0: what the case says */
-  int quiet, force, strict, json, csv;
+  int quiet, force, lenient, json, csv;
   const char *q;       /* "0,0.25,1.3" */
   const char *spacing; /* info kernels: in metres; NULL: not asked for */
   int dim;             /* 0: 2 and 3 */

@@ -128,11 +128,16 @@ static void print_summary(const prog_job *j)
   free(text);
 }
 
-static int missed(const prog_job *j)
+/* An exit status: what is judged must pass. */
+static int judge(const prog_job *j)
 {
+  int missed = 0;
   for (int k = 0; k < j->comparisons; k++)
-    if (!isnan(j->comparison[k].bar) && !j->comparison[k].pass) return 1;
-  return 0;
+    missed += !isnan(j->comparison[k].bar) && !j->comparison[k].pass;
+  if (!missed || j->o->lenient) return PROG_OK;
+  return sph_prog_error(PROG_BAR,
+                        "%s: %d of %d comparisons %s its bar (exit status 3; --lenient: 0)",
+                        j->directory, missed, j->comparisons, missed == 1 ? "misses" : "miss");
 }
 
 /* What is told of a run, also of one that failed or was stopped. */
@@ -155,7 +160,7 @@ int sph_prog_run_finish(prog_job *j, int status)
     status = simulate(j);
     int compared = status ? status : compare(j), concluded = conclude(j);
     if (!status) status = compared ? compared : concluded;
-    if (!status && j->o->strict && missed(j)) status = PROG_BAR;
+    if (!status) status = judge(j);
   }
   sph_case_compare_free(j->comparison, j->comparisons);
   sph_sim_free(j->sim);
