@@ -26,6 +26,7 @@
 #include "sphode/operator.h"
 #include "sphode/output.h"
 #include "sphode/sensitivity.h"
+#include "sphode/shape.h"
 #include "sphode/sim.h"
 #include "sphode/term.h"
 #endif

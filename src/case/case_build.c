@@ -7,7 +7,9 @@
 #include "case_build.h"
 #include "case_event.h"
 #include "case_material.h"
+#include "case_path.h"
 #include "case_schema.h"
+#include "case_shape.h"
 #include "memory.h"
 #include "sphode/case.h"
 #include "sphode/checkpoint.h"
@@ -103,15 +105,12 @@ static int set_boundary(builder *b, sph_group *group, const sph_case_node *of)
   return told(b, map ? map : of);
 }
 
-/* Its path is beside the case file. */
 static int add_file(const builder *b, sph_group *group, const sph_case_node *file, double density)
 {
-  char path[4096];
+  char path[SPH_CASE_PATH];
   const int wall = !strcmp(sph_group_kind(group), "wall");
-  const char *name = get_text(file, "path", ""), *slash = strrchr(b->c->path, '/');
-  const int beside = slash && name[0] != '/' ? (int)(slash - b->c->path) + 1 : 0;
-  if (snprintf(path, sizeof path, "%.*s%s", beside, b->c->path, name) >= (int)sizeof path)
-    return fail(b, file, "path: too long");
+  const sph_case_node *name = child_of(file, "path");
+  if (sph_case_path(b->c, name, name->text, path, b->error)) return b->error->status;
   sph_import(b->sim, group,
              &(sph_import_def){.path = path,
                                .part = (int)get_number(file, "part", wall),
@@ -119,16 +118,13 @@ static int add_file(const builder *b, sph_group *group, const sph_case_node *fil
   return told(b, file);
 }
 
-static int add_shape(const builder *b, sph_group *group, const sph_case_node *shape, double density)
+/* Of a box, a ball or layers on their own lattice. */
+static int add_plain(const builder *b, sph_group *group, const sph_case_node *shape, double density)
 {
   double lower[3], upper[3], centre[3];
   char open[32] = "";
-  if (!strcmp(shape->key, "plane"))
-    return fail(b, shape, "a plane is a shape of walls with boundary: {model: mirror} alone");
-  density = get_number(shape, "density", density);
   get_vector(shape, "lower", lower);
   get_vector(shape, "upper", upper);
-  if (!strcmp(shape->key, "file")) return add_file(b, group, shape, density);
   for (int d = 0; d < b->c->dim && strcmp(shape->key, "ball"); d++)
     if (!(upper[d] > lower[d]))
       return fail(b, shape, "upper must be above lower in each direction");
@@ -141,6 +137,18 @@ static int add_shape(const builder *b, sph_group *group, const sph_case_node *sh
     sph_group_add_layers(group, lower, upper, open_sides(shape, open, sizeof open), density);
   }
   return told(b, shape);
+}
+
+static int add_shape(const builder *b, sph_group *group, const sph_case_node *map,
+                     const sph_case_node *shape)
+{
+  const double density = get_number(shape, "density", sph_case_material_density(map));
+  if (!strcmp(shape->key, "plane"))
+    return fail(b, shape, "a plane is a shape of walls with boundary: {model: mirror} alone");
+  if (!strcmp(shape->key, "file")) return add_file(b, group, shape, density);
+  if (!sph_case_shape_is(map, shape)) return add_plain(b, group, shape, density);
+  int status = sph_case_shape_add(b->c, b->sim, group, map, shape, density, b->error);
+  return status ? status : told(b, shape);
 }
 
 static int set_scales(const builder *b, const sph_group *group, const sph_case_node *map)
@@ -159,7 +167,6 @@ static int build_group(builder *b, const sph_case_node *map)
   const sph_case_node *eos = child_of(map, "eos"), *material = child_of(map, "material");
   const sph_case_node *boundary = child_of(map, "boundary");
   const sph_case_node *initial = child_of(map, "initial"), *shape = child_of(map, "shapes")->first;
-  double density = sph_case_material_density(map);
   int wall = !strcmp(get_text(map, "kind", ""), "wall"), status;
   if (wall && initial) return fail(b, initial, "a wall has no initial state; see boundary: motion");
   if (!wall && boundary) return fail(b, boundary, "a fluid has no boundary; a wall has");
@@ -173,7 +180,7 @@ static int build_group(builder *b, const sph_case_node *map)
     status = told(b, child_of(map, "energy"));
   }
   for (; shape && !status && !(wall && is_mirror(map)); shape = shape->next)
-    status = add_shape(b, group, shape->first, density);
+    status = add_shape(b, group, map, shape->first);
   if (!status && get_number(map, "jitter", 0) > 0) {
     sph_group_jitter(group, get_number(map, "jitter", 0),
                      (unsigned long)get_number(map, "seed", 1));

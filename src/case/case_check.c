@@ -226,6 +226,7 @@ static int check_value(sph_case *c, const sph_case_key *key, sph_case_node *node
   case SPH_CASE_VECTOR_T: return check_list(c, key, SPH_CASE_NUMBER_T, c->dim, node);
   case SPH_CASE_PAIR_T: return check_list(c, key, SPH_CASE_NUMBER_T, 2, node);
   case SPH_CASE_NUMBERS_T: return check_list(c, key, SPH_CASE_NUMBER_T, -1, node);
+  case SPH_CASE_POINTS_T: return check_list(c, key, SPH_CASE_PAIR_T, -1, node);
   case SPH_CASE_FIELD_T:
   case SPH_CASE_FORMULA_T: return check_field(c, key, node);
   case SPH_CASE_FIELDS_T: return check_list(c, key, SPH_CASE_FIELD_T, c->dim, node);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "case_path.h"
 #include "case_profile.h"
 #include "case_section.h"
 #include "csv.h"
@@ -35,16 +36,6 @@ static int fail(const comparer *a, const sph_case_node *node, const char *what)
 }
 
 /* ---- tables */
-
-/* The path of a file that stands beside the case. */
-static int beside(const sph_case *c, const char *file, char path[SPH_PATH], sph_error *error)
-{
-  const char *slash = strrchr(c->path, '/');
-  int directory = slash && file[0] != '/' ? (int)(slash - c->path) + 1 : 0;
-  int n = snprintf(path, SPH_PATH, "%.*s%s", directory, c->path, file);
-  if (n < SPH_PATH) return SPH_OK;
-  return sph_error_set(error, SPH_ERR_FILE, "%.100s...: path too long", file);
-}
 
 static int table_read(const char *path, const char *x, const char *y, table *t, sph_error *error)
 {
@@ -99,7 +90,8 @@ static int read_reference(const comparer *a, const table *run, table *t)
   char path[SPH_PATH];
   if (!strcmp(a->kind->key, "drop")) return exact_drop(a, run, t);
   if (strcmp(a->kind->key, "csv")) return SPH_OK; /* one value */
-  int status = beside(a->c, get_text(a->kind, "file", ""), path, a->error);
+  int status =
+      sph_case_path(a->c, child_of(a->kind, "file"), get_text(a->kind, "file", ""), path, a->error);
   if (status) return status;
   return table_read(path, get_text(a->kind, "x", NULL), get_text(a->kind, "y", NULL), t, a->error);
 }
@@ -251,7 +243,9 @@ static int plot_table(const comparer *a, const char *png)
   sph_case_distance d;
   int status = measure(a, &d, note);
   if (!status) status = sph_file_path(run, a->directory, "series.csv", a->error);
-  if (!status) status = beside(a->c, get_text(a->kind, "file", ""), table_path, a->error);
+  if (!status)
+    status = sph_case_path(a->c, child_of(a->kind, "file"), get_text(a->kind, "file", ""),
+                           table_path, a->error);
   if (status) return status;
   double time = get_number(a->node, "time_scale", 1);
   sph_plot_curve curves[] = {{.csv = run,

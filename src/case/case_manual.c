@@ -31,14 +31,23 @@ static const char head[] =
 
 static const char *type_of(const sph_case_key *key)
 {
-  static const char *const words[] = {"mapping",       "list of",
-                                      "names to",      "names to numbers",
-                                      "text",          "word",
-                                      "list of words", "true/false",
-                                      "whole number",  "number",
-                                      "number",        "vector",
-                                      "[from, to]",    "list of numbers",
-                                      "expression",    "vector of expressions",
+  static const char *const words[] = {"mapping",
+                                      "list of",
+                                      "names to",
+                                      "names to numbers",
+                                      "text",
+                                      "word",
+                                      "list of words",
+                                      "true/false",
+                                      "whole number",
+                                      "number",
+                                      "number",
+                                      "vector",
+                                      "[from, to]",
+                                      "list of numbers",
+                                      "list of pairs",
+                                      "expression",
+                                      "vector of expressions",
                                       "expression"};
   return words[key->type];
 }

@@ -15,6 +15,7 @@ struct sph_case_node {
   int line, column; /* of the value, from 1; 0: given by --set or a default */
   int key_line, key_column;
   const char *origin; /* where line is 0: "--set a=b", "default"; borrowed */
+  const char *file;   /* that it stands in, NULL: that of the case; borrowed */
   char *key;          /* in a mapping, owned; NULL in a list */
   char *text;         /* of a scalar, owned */
   int quoted;         /* a scalar in quotes: never empty, never a number */

@@ -9,6 +9,7 @@
 #include "sphode/kernel.h"
 #include "sphode/material.h"
 #include "sphode/neighbors.h"
+#include "sphode/shape.h"
 
 static const sph_case_mapping mappings[] = {
 #define SPH_CASE_MAPPING(mapping, one, about) {#mapping, one, about},
@@ -46,6 +47,7 @@ static const char *library_word(const char *table, int k, char word[80])
   if (!strcmp(table, "@searches")) found = sph_neighbors_search_name(k);
   if (!strcmp(table, "@boundaries")) found = sph_boundary_name(k);
   if (!strcmp(table, "@materials")) found = sph_material_name(k);
+  if (!strcmp(table, "@lattices")) found = sph_shape_lattice_name(k);
   if (!strcmp(table, "@monitors")) found = sph_monitor_type(k);
   if (!strcmp(table, "@integrators") && sph_integrator_info_get(k, &info)) found = info.name;
   if (found) snprintf(word, 80, "%s", found);

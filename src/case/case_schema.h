@@ -20,6 +20,7 @@ enum sph_case_type {
   SPH_CASE_VECTOR_T,  /* dim numbers */
   SPH_CASE_PAIR_T,    /* two numbers */
   SPH_CASE_NUMBERS_T, /* any number of them */
+  SPH_CASE_POINTS_T,  /* any number of pairs */
   SPH_CASE_FIELD_T,   /* an expression in x, y, z */
   SPH_CASE_FIELDS_T,  /* dim of them */
   SPH_CASE_FORMULA_T  /* an expression in x, y, z, t */

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "case_path.h"
 #include "csv.h"
 #include "file.h"
 #include "frames.h"
@@ -48,12 +49,10 @@ static void section_free(section *s)
 
 static int read_table(const comparer *a, section *s)
 {
-  char path[SPH_PATH], title[128];
-  const char *file = get_text(a->kind, "file", ""), *slash = strrchr(a->c->path, '/');
-  const int beside = slash && file[0] != '/' ? (int)(slash - a->c->path) + 1 : 0;
+  char path[SPH_CASE_PATH], title[128];
+  const sph_case_node *file = sph_case_reader_find(a->kind, "file");
   long n = 0;
-  if (snprintf(path, sizeof path, "%.*s%s", beside, a->c->path, file) >= SPH_PATH)
-    return sph_error_set(a->error, SPH_ERR_FILE, "%.100s...: path too long", file);
+  if (sph_case_path(a->c, file, file->text, path, a->error)) return a->error->status;
   int status = sph_csv_read(path, get_text(a->kind, "x", NULL), 0, &s->at, &s->n, title, a->error);
   if (!status)
     status = sph_csv_read(path, get_text(a->kind, "y", NULL), 1, &s->value, &n, title, a->error);

@@ -19,7 +19,10 @@ static const char text[] =
     "groups:\n"
     "  water: {kind: fluid, density: 1000, eos: {tait: {sound_speed: 10}}, shapes:\n"
     "    [{box: {lower: [0, 0], upper: [H, H]}}], initial: {velocity: [x/T, -y/T]}}\n"
-    "  tank: {kind: wall, density: 1000, shapes: [{layers: {lower: [0, 0], upper: [H, H]}}],\n"
+    "  tank: {kind: wall, density: 1000, shapes: [{layers: {lower: [0, 0], upper: [H, H]}},\n"
+    "    {shell: {thickness: 5 cm, of: {translate: {by: [2*H, 0], of: {difference: [\n"
+    "      {polygon: {corners: [[0, 0], [H, 0], [0, H]]}}, {ball: {centre: [0, 0], radius: "
+    "H/2}}]}}}}}],\n"
     "    boundary: {motion: {velocity: [1, 0], slide: true}}}\n"
     "terms: {continuity: , pressure: , gravity: {acceleration: [0, -1]}}\nrun: {end: 1}\n"
     "events: {e: {when: {front: {at: 1, group: water}}, change: {gravity: [0, 0],\n"
@@ -53,6 +56,35 @@ static void every_allocation_may_fail(void **state)
     if (!strstr(error.text, "out of memory")) fail_msg("allocation %ld: %s", fail_at, error.text);
   }
   assert_true(fail_at > 100);
+}
+
+static void every_allocation_of_a_surface_may_fail(void **state)
+{
+  char directory[FOLDER_MAX], path[FOLDER_MAX + 20];
+  (void)state;
+  fail_at = 0;
+  assert_int_equal(folder_make(directory, "memory"), 0);
+  snprintf(path, sizeof path, "%s/a.obj", directory);
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fputs("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", file);
+  fclose(file);
+  for (fail_at = 1;; fail_at++) {
+    sph_error error = {0};
+    calls = 0;
+    sph_shape *s = sph_shape_surface(path, 1, 0, &error);
+    s = s ? sph_shape_shell(sph_shape_union(1, &s, &error), 0.1, 1, 0.1, &error) : NULL;
+    sph_shape_free(s);
+    if (calls < fail_at) {
+      if (!s) fail_msg("%s", error.text);
+      break;
+    }
+    if (s) fail_msg("allocation %ld failed, and nobody told", fail_at);
+    if (!strstr(error.text, "out of memory")) fail_msg("allocation %ld: %s", fail_at, error.text);
+  }
+  assert_true(fail_at > 12);
+  fail_at = 0;
+  assert_int_equal(folder_remove(directory), 0);
 }
 
 /* Compared at a snapshot and at the end. */
@@ -100,6 +132,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(every_allocation_of_a_surface_may_fail),
       cmocka_unit_test(every_allocation_of_a_comparison_may_fail),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
