@@ -244,6 +244,12 @@ def nothing_is_freed_too_early():
 
 
 @test
+def the_package_says_the_same_version():
+    with open(SOURCE + "/python/pyproject.toml") as file:
+        assert f'version = "{sphode.version}"' in file.read().split("\n")
+
+
+@test
 def another_version_is_refused():
     with open(sphode.declarations_path) as file:
         text = file.read()
