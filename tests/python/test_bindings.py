@@ -246,7 +246,7 @@ def nothing_is_freed_too_early():
 @test
 def the_package_says_the_same_version():
     with open(SOURCE + "/python/pyproject.toml") as file:
-        assert f'version = "{sphode.version}"' in file.read().split("\n")
+        assert f'version = "{sphode.version}"' in file.read(), f"python/pyproject.toml is not of {sphode.version}"
 
 
 @test
