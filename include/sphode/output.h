@@ -80,7 +80,7 @@ SPH_API sph_output sph_output_hdf5_def(const sph_hdf5_def *def); /* strings are 
  *   pressure   at x: sum V p W / sum V W, and 0 where sum V W < 0.15 (dry: an immersed point has
  *              1, a point on an immersed wall 1/2) [Pa].  With an extent: the mean over the
  *              ellipsoid (disc, segment) with these half lengths, sampled every dx or finer
- *   semi-axis  sqrt((dim + 2) <(x - <x>)^2>) along `axis`: of an ellipse or ellipsoid [m] */
+ *   semi-axis  sqrt((dim + 2) mean (x - mean x)^2) along `axis`: of an ellipse or ellipsoid [m] */
 typedef struct sph_monitor {
   const char *name;  /* of the column: [A-Za-z0-9_.-], at most 63 */
   const char *type;  /* "front", "height", "gauge", "pressure", "semi-axis" */
