@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "case_include.h"
 #include "case_schema.h"
 #include "memory.h"
 #include "text.h"
@@ -99,6 +100,20 @@ static char *whole_text(const char *text, size_t size, int n, const char *const 
   return copy;
 }
 
+/* The same of a case that was made of several files. */
+static char *joined_text(const sph_case *c, int n, const char *const *set, sph_error *error)
+{
+  sph_text text = {0};
+  char *whole = NULL;
+  sph_case_include_write(c, &text);
+  if (text.error.status)
+    sph_error_set(error, text.error.status, "%s", text.error.text);
+  else
+    whole = whole_text(text.data, text.length, n, set, error);
+  sph_text_free(&text);
+  return whole;
+}
+
 static int check_given(const char *path, const char *text, int n, const char *const *set,
                        sph_error *error)
 {
@@ -128,7 +143,9 @@ sph_case *sph_case_read_text(const char *path, const char *text, size_t size, in
   c->error = error;
   c->path = sph_memory_string(path, error);
   if (c->path) c->root = sph_case_reader_parse(c->path, text, size, error);
-  if (c->root) c->text = whole_text(text, size, n, set, error);
+  const int joined = c->root ? sph_case_include(c) : SPH_ERR_PARSE;
+  if (joined > 0) c->text = joined_text(c, n, set, error);
+  if (joined == 0) c->text = whole_text(text, size, n, set, error);
   for (int k = 0; c->text && k < n; k++) c->source += strlen("# --set \n") + strlen(set[k]);
   if (n > SPH_CASE_SETS)
     sph_error_set(error, SPH_ERR_PARSE, "%d times --set; at most %d", n, SPH_CASE_SETS);
@@ -159,6 +176,8 @@ void sph_case_free(sph_case *c)
   if (!c) return;
   sph_case_reader_free(c->root);
   for (int k = 0; k < SPH_CASE_SETS; k++) sph_memory_free(c->set[k]);
+  for (int k = c->n; k < c->timed_n; k++) sph_case_table_free(c->timed[k].table);
+  for (int k = 0; k < c->includes; k++) sph_memory_free(c->include[k]);
   sph_memory_free(c->path);
   sph_memory_free(c->text);
   sph_memory_free(c);

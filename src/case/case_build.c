@@ -10,6 +10,7 @@
 #include "case_path.h"
 #include "case_schema.h"
 #include "case_shape.h"
+#include "case_source.h"
 #include "memory.h"
 #include "sphode/case.h"
 #include "sphode/checkpoint.h"
@@ -77,6 +78,44 @@ static int add_planes(const builder *b, const sph_case_node *shape, sph_boundary
   return SPH_OK;
 }
 
+static int set_displacement(const builder *b, const sph_case_node *list, sph_case_motion *m)
+{
+  int d = 0;
+  for (const sph_case_node *node = list->first; node && d < 3; node = node->next, d++) {
+    sph_case_value value;
+    m->formula[d] =
+        sph_case_value_formula_create(node->text, b->c->timed, b->c->timed_n, 0, &value);
+    if (!m->formula[d])
+      return sph_case_schema_fail(b->c, b->error, node, 1, value.column, "displacement: %s",
+                                  value.problem);
+  }
+  if (sph_case_motion_begin(m, 1e-5 * sph_case_end(b->c)) == SPH_OK) return SPH_OK;
+  return fail(b, list, "displacement: not finite at t = 0");
+}
+
+/* The boundary takes it along. */
+static int add_motion(builder *b, const sph_group *group, const sph_case_node *motion,
+                      sph_boundary *boundary)
+{
+  const sph_case_node *displacement = child_of(motion, "displacement");
+  sph_case_motion *m = SPH_NEW(sph_case_motion, 1, "the motion of a wall", b->error);
+  if (!m) return SPH_ERR_MEMORY;
+  get_vector(motion, "velocity", m->velocity);
+  m->slide = get_number(motion, "slide", 0) != 0;
+  int status = displacement ? set_displacement(b, displacement, m) : SPH_OK;
+  if (status) {
+    sph_case_motion_free(m);
+    return status;
+  }
+  char name[80];
+  snprintf(name, sizeof name, "motion.%.64s", sph_group_name(group));
+  sph_sim_keep_add(b->sim, (sph_kept){.name = name, .keep = sph_case_motion_keep, .ctx = m});
+  sph_case_motion_set(boundary, m);
+  b->motions.of[b->motions.n].group = sph_group_name(group);
+  b->motions.of[b->motions.n++].motion = m;
+  return SPH_OK;
+}
+
 static int set_boundary(builder *b, sph_group *group, const sph_case_node *of)
 {
   const sph_case_node *map = child_of(of, "boundary"), *motion = child_of(map, "motion");
@@ -90,16 +129,8 @@ static int set_boundary(builder *b, sph_group *group, const sph_case_node *of)
   boundary.tension = get_number(map, "tension", 0) != 0;
   boundary.temperature = get_number(map, "temperature", 0);
   if (motion) {
-    sph_case_motion *s = SPH_NEW(sph_case_motion, 1, "the motion of a wall", b->error);
-    if (!s) return SPH_ERR_MEMORY;
-    get_vector(motion, "velocity", s->velocity);
-    s->slide = get_number(motion, "slide", 0) != 0;
-    char name[80];
-    snprintf(name, sizeof name, "motion.%.64s", sph_group_name(group));
-    sph_sim_keep_add(b->sim, (sph_kept){.name = name, .keep = sph_case_motion_keep, .ctx = s});
-    sph_case_motion_set(&boundary, s);
-    b->motions.of[b->motions.n].group = sph_group_name(group);
-    b->motions.of[b->motions.n++].motion = s;
+    int status = add_motion(b, group, motion, &boundary);
+    if (status) return status;
   }
   sph_group_set_boundary(group, boundary);
   return told(b, map ? map : of);
@@ -110,7 +141,7 @@ static int add_file(const builder *b, sph_group *group, const sph_case_node *fil
   char path[SPH_CASE_PATH];
   const int wall = !strcmp(sph_group_kind(group), "wall");
   const sph_case_node *name = child_of(file, "path");
-  if (sph_case_path(b->c, name, name->text, path, b->error)) return b->error->status;
+  if (sph_case_path(b->c, name->text, path, b->error)) return b->error->status;
   sph_import(b->sim, group,
              &(sph_import_def){.path = path,
                                .part = (int)get_number(file, "part", wall),
@@ -273,36 +304,6 @@ static int set_initial(const builder *b, const sph_case_node *map)
 
 /* ---- terms, integrator */
 
-static int heat(const sph_term *term, const sph_particles *s)
-{
-  double q[256];
-  enum { CHUNK = sizeof q / sizeof *q };
-  for (long i = 0; s->du && i < s->n; i += CHUNK) {
-    long n = s->n - i < CHUNK ? s->n - i : CHUNK;
-    const double *x[3] = {NULL, NULL, NULL};
-    for (int d = 0; d < s->dim; d++) x[d] = s->x[d] + i;
-    if (sph_case_value_formula_at(term->ctx, n, x, s->t, q)) return SPH_ERR_ARGUMENT;
-    for (long k = 0; k < n; k++) s->du[i + k] += q[k];
-  }
-  return SPH_OK;
-}
-
-static int add_heating(const builder *b, const sph_case_node *map)
-{
-  const sph_case_node *node = child_of(map, "power");
-  sph_case_value value;
-  sph_case_formula *formula =
-      sph_case_value_formula_create(node->text, b->c->names, b->c->n, b->c->dim, &value);
-  if (!formula)
-    return sph_case_schema_fail(b->c, b->error, node, 1, value.column, "power: %s", value.problem);
-  sph_sim_add_term(b->sim, (sph_term){.name = "heat-source",
-                                      .body = heat,
-                                      .reads = "",
-                                      .ctx = formula,
-                                      .free = sph_case_value_formula_free});
-  return told(b, map);
-}
-
 static sph_term shifting(const sph_case_node *map)
 {
   sph_term term = sph_term_shifting(get_text(map, "form", NULL), get_number(map, "speed", 0));
@@ -368,13 +369,12 @@ sph_term sph_case_build_term(const sph_case_node *map)
 
 static int add_term(const builder *b, const sph_case_node *map)
 {
-  int status;
-  if (!strcmp(map->key, "heat-source"))
-    status = add_heating(b, map);
-  else {
+  int status = SPH_OK;
+  if (sph_case_source_is(map))
+    status = sph_case_source_add(b->c, b->sim, map, b->error);
+  else
     sph_sim_add_term(b->sim, sph_case_build_term(map));
-    status = told(b, map);
-  }
+  if (!status) status = told(b, map);
   if (status || !child_of(map, "part")) return status;
   sph_sim_set_part(b->sim, map->key, get_text(map, "part", NULL));
   return told(b, child_of(map, "part"));

@@ -125,11 +125,21 @@ static int check_field(sph_case *c, const sph_case_key *key, sph_case_node *node
 {
   sph_case_value value;
   if (not_scalar(c, key, node, "an expression")) return SPH_ERR_PARSE;
-  int timed = key->type == SPH_CASE_FORMULA_T;
-  if ((timed ? sph_case_value_formula_unit : sph_case_value_field_unit)(node->text, c->names, c->n,
-                                                                        c->dim, &value))
+  const int dim = key->type == SPH_CASE_MOMENT_T ? 0 : c->dim;
+  if (key->type == SPH_CASE_FIELD_T
+          ? sph_case_value_field_unit(node->text, c->names, c->n, dim, &value)
+          : sph_case_value_formula_unit(node->text, c->timed, c->timed_n, dim, &value))
     return FAIL(node, value.column, "%s: %s", key->name, value.problem);
   return check_unit(c, key, node, &value);
+}
+
+static int check_texts(sph_case *c, const sph_case_key *key, sph_case_node *node)
+{
+  int status = SPH_OK;
+  if (node->kind != SPH_CASE_LIST) return not_scalar(c, key, node, "a text or a list of texts");
+  for (sph_case_node *child = node->first; child && !status; child = child->next)
+    status = not_scalar(c, key, child, "a text");
+  return status;
 }
 
 /* ---- parameters */
@@ -228,7 +238,11 @@ static int check_value(sph_case *c, const sph_case_key *key, sph_case_node *node
   case SPH_CASE_NUMBERS_T: return check_list(c, key, SPH_CASE_NUMBER_T, -1, node);
   case SPH_CASE_POINTS_T: return check_list(c, key, SPH_CASE_PAIR_T, -1, node);
   case SPH_CASE_FIELD_T:
-  case SPH_CASE_FORMULA_T: return check_field(c, key, node);
+  case SPH_CASE_FORMULA_T:
+  case SPH_CASE_MOMENT_T: return check_field(c, key, node);
+  case SPH_CASE_FORMULAS_T: return check_list(c, key, SPH_CASE_FORMULA_T, c->dim, node);
+  case SPH_CASE_MOMENTS_T: return check_list(c, key, SPH_CASE_MOMENT_T, c->dim, node);
+  case SPH_CASE_TEXTS_T: return check_texts(c, key, node);
   case SPH_CASE_FIELDS_T: return check_list(c, key, SPH_CASE_FIELD_T, c->dim, node);
   }
   return SPH_ERR_STATE;
@@ -298,7 +312,8 @@ static int check_map(sph_case *c, const char *mapping, sph_case_node *node)
   for (sph_case_node *child = node->first; child; child = child->next) {
     const sph_case_key *key = find_key(mapping, child->key);
     if (!key) return unknown_key(c, mapping, child);
-    if (key->type == SPH_CASE_PARAMETERS_T) continue; /* done before */
+    if (key->type == SPH_CASE_PARAMETERS_T) continue; /* done before, as tables are */
+    if (!strcmp(mapping, "case") && !strcmp(key->name, "tables")) continue;
     if (check_value(c, key, child)) return c->error->status;
   }
   return is_one(mapping) ? check_one(c, mapping, node) : complete(c, mapping, node);
@@ -407,6 +422,34 @@ int sph_case_check_parts(const sph_case *c, sph_error *error)
   return SPH_OK;
 }
 
+/* Before all that may use them. */
+static int check_tables(sph_case *c)
+{
+  sph_case_node *tables = sph_case_reader_find(c->root, "tables");
+  if (tables && check_value(c, find_key("case", "tables"), tables)) return c->error->status;
+  for (sph_case_node *one = tables ? tables->first : NULL; one; one = one->next)
+    if (check_name(c, one)) return c->error->status;
+  return sph_case_table_read_all(c);
+}
+
+/* A wall moves in one way. */
+static int check_motions(sph_case *c)
+{
+  const sph_case_node *groups = sph_case_reader_find(c->root, "groups");
+  for (const sph_case_node *group = groups->first; group; group = group->next) {
+    const sph_case_node *motion =
+        sph_case_reader_find(sph_case_reader_find(group, "boundary"), "motion");
+    const sph_case_node *v = sph_case_reader_find(motion, "velocity");
+    const sph_case_node *x = sph_case_reader_find(motion, "displacement");
+    if (motion && !v && !x)
+      return FAIL_KEY(motion, "missing key 'velocity' or 'displacement' in motion");
+    if (v && x) return FAIL_KEY(x, "motion: found both velocity and displacement; one is right");
+    if (x && sph_case_reader_number(motion, "slide", 0) != 0)
+      return FAIL_KEY(x, "motion: a wall that slides has a velocity, not a displacement");
+  }
+  return SPH_OK;
+}
+
 int sph_case_check(sph_case *c)
 {
   sph_case_node *dimension = sph_case_reader_find(c->root, "dimension");
@@ -416,11 +459,16 @@ int sph_case_check(sph_case *c)
   c->dim = dimension ? (int)dimension->number : 3;
   if (parameters && check_value(c, find_key("case", "parameters"), parameters))
     return c->error->status;
+  if (check_tables(c)) return c->error->status;
+  const sph_case_node *include =
+      sph_case_reader_find(c->root, "include"); /* those of files are gone */
+  if (include) return FAIL_KEY(include, "include: stands in files; --set cannot bring it");
   int status = check_map(c, "case", c->root);
   if (!status) status = check_fluid(c);
   if (!status) status = sph_case_material_check(c);
   if (!status) status = sph_case_event_check(c);
   if (!status) status = check_drag(c);
+  if (!status) status = check_motions(c);
   if (!status) status = check_comparisons(c);
   return status ? status : check_forms(c);
 }

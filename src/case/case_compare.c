@@ -90,8 +90,7 @@ static int read_reference(const comparer *a, const table *run, table *t)
   char path[SPH_PATH];
   if (!strcmp(a->kind->key, "drop")) return exact_drop(a, run, t);
   if (strcmp(a->kind->key, "csv")) return SPH_OK; /* one value */
-  int status =
-      sph_case_path(a->c, child_of(a->kind, "file"), get_text(a->kind, "file", ""), path, a->error);
+  int status = sph_case_path(a->c, get_text(a->kind, "file", ""), path, a->error);
   if (status) return status;
   return table_read(path, get_text(a->kind, "x", NULL), get_text(a->kind, "y", NULL), t, a->error);
 }
@@ -243,9 +242,7 @@ static int plot_table(const comparer *a, const char *png)
   sph_case_distance d;
   int status = measure(a, &d, note);
   if (!status) status = sph_file_path(run, a->directory, "series.csv", a->error);
-  if (!status)
-    status = sph_case_path(a->c, child_of(a->kind, "file"), get_text(a->kind, "file", ""),
-                           table_path, a->error);
+  if (!status) status = sph_case_path(a->c, get_text(a->kind, "file", ""), table_path, a->error);
   if (status) return status;
   double time = get_number(a->node, "time_scale", 1);
   sph_plot_curve curves[] = {{.csv = run,

@@ -22,7 +22,8 @@ static const char head[] =
     "any unit is taken as SI. Names come from `parameters`; each may use those above it. Known\n"
     "functions are those of muParser: `sqrt`, `sin`, `exp`, `min`, `max`, `abs`, ..., "
     "`x < 0 ? a : b`, and the constant `pi`.\nExpressions of the initial state may use the "
-    "coordinates `x`, `y`, `z`, those of sources the time `t`, too.\n\n"
+    "coordinates `x`, `y`, `z`, those of sources and motions the time `t` and the names of "
+    "`tables`, too.\n\n"
     "**Units**: kg g, m km dm cm mm um in ft, s ms us min, Hz kHz, N kN, Pa mPa hPa kPa MPa GPa "
     "bar mbar, J kJ MJ, W mW kW, K, mol, and\ntheir products, quotients and powers.\n\n"
     "An **error** tells its place, what was found and what is right:\n\n"
@@ -48,7 +49,11 @@ static const char *type_of(const sph_case_key *key)
                                       "list of pairs",
                                       "expression",
                                       "vector of expressions",
-                                      "expression"};
+                                      "expression",
+                                      "vector of expressions",
+                                      "vector of expressions in t",
+                                      "expression in t",
+                                      "text or list of texts"};
   return words[key->type];
 }
 

@@ -1,6 +1,8 @@
-/* case_motion.h -- the steady motion of a wall, which an event may change. */
+/* case_motion.h -- the motion of a wall: a steady velocity, or a displacement by expressions in t;
+ * an event may change it into another steady one. */
 #ifndef SPH_CASE_MOTION_H
 #define SPH_CASE_MOTION_H
+#include "case_value.h"
 #include "sphode/boundary.h"
 #include "sphode/checkpoint.h"
 #include "sphode/sim.h"
@@ -10,10 +12,16 @@ typedef struct sph_case_motion {
   double displacement[3], velocity[3]; /* the displacement there [m], [m/s] */
   int slide;                           /* in its own plane: no displacement */
   int changed;                         /* by an event */
+  /* Owned; NULL: a steady velocity.  What they say at t = 0; the step of differences [s]. */
+  sph_case_formula *formula[3];
+  double start[3], step;
 } sph_case_motion;
 
 /* Takes a boundary along; motion: freed with it. */
 void sph_case_motion_set(sph_boundary *boundary, sph_case_motion *motion);
+void sph_case_motion_free(void *motion);
+/* From here on by its formulas; 0 or a status where one is not finite at t = 0. */
+int sph_case_motion_begin(sph_case_motion *motion, double step);
 /* For checkpoints: what an event made of it (sph_kept.keep). */
 int sph_case_motion_keep(void *motion, sph_sim *sim, sph_keep *keep, sph_error *error);
 /* From t on it moves as `next` says, from where it is. */

@@ -5,8 +5,7 @@
 
 enum { SPH_CASE_PATH = 4096 };
 
-/* The path of a file named by a node: beside the file that the node stands in.  A status. */
-int sph_case_path(const sph_case *c, const sph_case_node *node, const char *name,
-                  char path[SPH_CASE_PATH], sph_error *error);
+/* The path of a file that stands beside the case.  A status. */
+int sph_case_path(const sph_case *c, const char *name, char path[SPH_CASE_PATH], sph_error *error);
 
 #endif

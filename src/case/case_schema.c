@@ -80,7 +80,9 @@ int sph_case_schema_fail(const sph_case *c, sph_error *error, const sph_case_nod
   int key = !value && node->key;
   int line = key ? node->key_line : node->line;
   int at = key ? node->key_column : node->column + column + node->quoted;
-  if (line > 0) return sph_error_set(error, SPH_ERR_PARSE, "%s:%d:%d: %s", c->path, line, at, what);
+  if (line > 0)
+    return sph_error_set(error, SPH_ERR_PARSE, "%s:%d:%d: %s", node->file ? node->file : c->path,
+                         line, at, what);
   int set = node->origin && strcmp(node->origin, "default");
   return sph_error_set(error, SPH_ERR_PARSE, "%s: %s%s: %s", c->path, set ? "--set " : "",
                        set ? node->origin : "default", what);

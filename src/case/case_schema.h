@@ -16,14 +16,18 @@ enum sph_case_type {
   SPH_CASE_FLAG_T,
   SPH_CASE_COUNT_T,
   SPH_CASE_NUMBER_T,
-  SPH_CASE_LARGEST_T, /* a number that may use `largest` */
-  SPH_CASE_VECTOR_T,  /* dim numbers */
-  SPH_CASE_PAIR_T,    /* two numbers */
-  SPH_CASE_NUMBERS_T, /* any number of them */
-  SPH_CASE_POINTS_T,  /* any number of pairs */
-  SPH_CASE_FIELD_T,   /* an expression in x, y, z */
-  SPH_CASE_FIELDS_T,  /* dim of them */
-  SPH_CASE_FORMULA_T  /* an expression in x, y, z, t */
+  SPH_CASE_LARGEST_T,  /* a number that may use `largest` */
+  SPH_CASE_VECTOR_T,   /* dim numbers */
+  SPH_CASE_PAIR_T,     /* two numbers */
+  SPH_CASE_NUMBERS_T,  /* any number of them */
+  SPH_CASE_POINTS_T,   /* any number of pairs */
+  SPH_CASE_FIELD_T,    /* an expression in x, y, z */
+  SPH_CASE_FIELDS_T,   /* dim of them */
+  SPH_CASE_FORMULA_T,  /* an expression in x, y, z, t and the tables */
+  SPH_CASE_FORMULAS_T, /* dim of them */
+  SPH_CASE_MOMENTS_T,  /* dim expressions in t and the tables */
+  SPH_CASE_MOMENT_T,   /* one of these */
+  SPH_CASE_TEXTS_T     /* a text or a list of them */
 };
 
 typedef struct sph_case_mapping {
@@ -40,7 +44,7 @@ typedef struct sph_case_key {
   const char *more, *about;
 } sph_case_key;
 
-enum { SPH_CASE_NAMES = 100, SPH_CASE_SETS = 64 };
+enum { SPH_CASE_NAMES = 100, SPH_CASE_SETS = 64, SPH_CASE_INCLUDES = 32 };
 
 struct sph_case {
   char *path, *text; /* owned */
@@ -49,8 +53,12 @@ struct sph_case {
   int dim;
   int n;                               /* of names */
   sph_case_name names[SPH_CASE_NAMES]; /* parameters; names borrowed from the tree */
-  char *set[SPH_CASE_SETS];            /* copies of the --set texts, owned */
-  sph_error *error;                    /* while reading; borrowed */
+  int timed_n;
+  sph_case_name timed[SPH_CASE_NAMES]; /* the same, and behind them the tables, owned */
+  int includes;
+  char *include[SPH_CASE_INCLUDES]; /* paths of included files, owned */
+  char *set[SPH_CASE_SETS];         /* copies of the --set texts, owned */
+  sph_error *error;                 /* while reading; borrowed */
 };
 
 const sph_case_mapping *sph_case_schema_mapping(int k); /* NULL behind the last */

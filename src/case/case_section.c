@@ -52,7 +52,7 @@ static int read_table(const comparer *a, section *s)
   char path[SPH_CASE_PATH], title[128];
   const sph_case_node *file = sph_case_reader_find(a->kind, "file");
   long n = 0;
-  if (sph_case_path(a->c, file, file->text, path, a->error)) return a->error->status;
+  if (sph_case_path(a->c, file->text, path, a->error)) return a->error->status;
   int status = sph_csv_read(path, get_text(a->kind, "x", NULL), 0, &s->at, &s->n, title, a->error);
   if (!status)
     status = sph_csv_read(path, get_text(a->kind, "y", NULL), 1, &s->value, &n, title, a->error);

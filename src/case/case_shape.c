@@ -89,7 +89,7 @@ static sph_shape *surface(const builder *b, const sph_case_node *node, sph_error
 {
   char path[SPH_CASE_PATH];
   const sph_case_node *file = child_of(node, "file");
-  if (sph_case_path(b->c, file, file->text, path, e)) return NULL;
+  if (sph_case_path(b->c, file->text, path, e)) return NULL;
   return sph_shape_surface(path, get_number(node, "unit", 1), get_number(node, "holes", 0) != 0, e);
 }
 

@@ -346,7 +346,7 @@ struct sph_case_formula {
   sph_case_name names[MOST_NAMES];
   sph_case_value result;
   muParserHandle_t parser;
-  int first, dim; /* place of x among the values */
+  int names_n, first, dim; /* first: place of x among the values */
 };
 
 /* Evaluated once here: muParser makes its code at the first evaluation. */
@@ -363,6 +363,19 @@ static int open_formula(sph_case_formula *it, const char *text, int m)
   return status;
 }
 
+/* The case may be gone when the formula is evaluated. */
+static int copy_tables(sph_case_formula *it)
+{
+  int status = SPH_OK;
+  for (int k = 0; k < it->names_n; k++) {
+    if (!it->names[k].table) continue;
+    it->names[k].table = status ? NULL : sph_case_table_copy(it->names[k].table);
+    if (!it->names[k].table) status = SPH_ERR_MEMORY;
+  }
+  if (status) snprintf(it->result.problem, sizeof it->result.problem, "out of memory: a formula");
+  return status;
+}
+
 sph_case_formula *sph_case_value_formula_create(const char *text, const sph_case_name *names, int n,
                                                 int dim, sph_case_value *result)
 {
@@ -372,10 +385,11 @@ sph_case_formula *sph_case_value_formula_create(const char *text, const sph_case
     snprintf(result->problem, sizeof result->problem, "out of memory: a formula");
     return NULL;
   }
-  int m = with_coordinates(names, n, dim, 1, 1, it->names);
+  it->names_n = with_coordinates(names, n, dim, 1, 1, it->names);
   it->dim = dim;
-  it->first = m - dim - 1;
-  int status = open_formula(it, text, m);
+  it->first = it->names_n - dim - 1;
+  int status = copy_tables(it);
+  if (!status) status = open_formula(it, text, it->names_n);
   *result = it->result;
   it->f.text = ""; /* the text is borrowed until here */
   if (!status) return it;
@@ -389,6 +403,8 @@ int sph_case_value_formula_at(sph_case_formula *it, long count, const double *co
   int status = SPH_OK;
   pthread_mutex_lock(&lock);
   it->f.values[it->first + it->dim] = t;
+  for (int k = 0; k < it->names_n; k++)
+    if (it->names[k].table) it->f.values[k] = sph_case_table_at(it->names[k].table, t);
   for (long i = 0; !status && i < count; i++) {
     for (int d = 0; d < it->dim; d++) it->f.values[it->first + d] = x[d][i];
     out[i] = mupEval(it->parser);
@@ -405,5 +421,6 @@ void sph_case_value_formula_free(void *formula_of)
   pthread_mutex_lock(&lock);
   if (it->parser) mupRelease(it->parser);
   pthread_mutex_unlock(&lock);
+  for (int k = 0; k < it->names_n; k++) sph_case_table_free(it->names[k].table);
   sph_memory_free(it);
 }

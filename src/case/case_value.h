@@ -1,16 +1,18 @@
 /* case_value.h -- numbers as expressions (muParser) with units, whose dimensions are checked. */
 #ifndef SPH_CASE_VALUE_H
 #define SPH_CASE_VALUE_H
+#include "case_table.h"
 #include "case_unit.h"
 #include "sphode/base.h"
 
 enum { SPH_CASE_VALUE_LENGTH = 1000 };
 
-/* A name that expressions may use: a parameter, a coordinate. */
+/* A name that expressions may use: a parameter, a coordinate, in formulas of time a table. */
 typedef struct sph_case_name {
   char *name;
-  double value; /* SI */
+  double value; /* SI; of a table: some value of it */
   double power[SPH_CASE_BASES];
+  sph_case_table *table; /* NULL: it is no table */
 } sph_case_name;
 
 typedef struct sph_case_value {
@@ -37,7 +39,7 @@ typedef struct sph_case_formula sph_case_formula;
 /* The unit of one at some point and time. */
 int sph_case_value_formula_unit(const char *text, const sph_case_name *names, int n, int dim,
                                 sph_case_value *result);
-/* names are copied; NULL: the problem is told in result. */
+/* names and their tables are copied; NULL: the problem is told in result. */
 sph_case_formula *sph_case_value_formula_create(const char *text, const sph_case_name *names, int n,
                                                 int dim, sph_case_value *result);
 /* out[count], SI, at x[d][count] [m], t [s]; SPH_ERR_ARGUMENT where a value is not finite. */

@@ -58,6 +58,54 @@ static void every_allocation_may_fail(void **state)
   assert_true(fail_at > 100);
 }
 
+static void put(const char *directory, const char *name, const char *content)
+{
+  char path[FOLDER_MAX + 20];
+  snprintf(path, sizeof path, "%s/%s", directory, name);
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fputs(content, file);
+  fclose(file);
+}
+
+/* A case of two files, with a table that a wall and a force follow. */
+static void every_allocation_of_joined_files_may_fail(void **state)
+{
+  char directory[FOLDER_MAX], path[FOLDER_MAX + 20];
+  (void)state;
+  fail_at = 0;
+  assert_int_equal(folder_make(directory, "memory"), 0);
+  put(directory, "t.csv", "t,x\n0,0\n1,1\n2,1\n");
+  put(directory, "b.yml",
+      "dimension: 1\nspacing: 1\nrun: {end: 1}\ntables: {x_w: {file: t.csv}}\ngroups:\n"
+      "  w: {kind: fluid, density: 1, eos: {linear: {sound_speed: 1}}, shapes: [{box: {lower: "
+      "[0],\n"
+      "    upper: [4]}}]}\n");
+  put(directory, "a.yml",
+      "include: [b.yml]\nterms: {continuity: , pressure: , body-force: {acceleration: [x_w]}}\n"
+      "groups: {t: {kind: wall, density: 1, shapes: [{box: {lower: [-4], upper: [0]}}],\n"
+      "  boundary: {motion: {displacement: [x_w*1 m]}}}}\n");
+  snprintf(path, sizeof path, "%s/a.yml", directory);
+  for (fail_at = 1;; fail_at++) {
+    sph_error error = {0};
+    calls = 0;
+    sph_case *c = sph_case_read(path, 0, NULL, &error);
+    sph_sim *sim = c ? sph_case_build(c, 1, &error) : NULL;
+    const int made = sim != NULL;
+    sph_sim_free(sim);
+    sph_case_free(c);
+    if (calls < fail_at) {
+      if (!made) fail_msg("%s", error.text);
+      break;
+    }
+    if (made) fail_msg("allocation %ld failed, and nobody told", fail_at);
+    if (!strstr(error.text, "out of memory")) fail_msg("allocation %ld: %s", fail_at, error.text);
+  }
+  assert_true(fail_at > 100);
+  fail_at = 0;
+  assert_int_equal(folder_remove(directory), 0);
+}
+
 static void every_allocation_of_a_surface_may_fail(void **state)
 {
   char directory[FOLDER_MAX], path[FOLDER_MAX + 20];
@@ -65,10 +113,8 @@ static void every_allocation_of_a_surface_may_fail(void **state)
   fail_at = 0;
   assert_int_equal(folder_make(directory, "memory"), 0);
   snprintf(path, sizeof path, "%s/a.obj", directory);
-  FILE *file = fopen(path, "w");
-  assert_non_null(file);
-  fputs("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", file);
-  fclose(file);
+  put(directory, "a.obj",
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   for (fail_at = 1;; fail_at++) {
     sph_error error = {0};
     calls = 0;
@@ -132,6 +178,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(every_allocation_of_joined_files_may_fail),
       cmocka_unit_test(every_allocation_of_a_surface_may_fail),
       cmocka_unit_test(every_allocation_of_a_comparison_may_fail),
   };

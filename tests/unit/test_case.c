@@ -23,9 +23,9 @@
 
 /* ---- units and expressions */
 
-static sph_case_name names[] = {{(char[]){"H"}, 0.6, {0, 1, 0}},
-                                {(char[]){"g"}, 9.81, {0, 1, -2}},
-                                {(char[]){"n"}, 3, {0, 0, 0}}};
+static sph_case_name names[] = {{.name = (char[]){"H"}, .value = 0.6, .power = {0, 1, 0}},
+                                {.name = (char[]){"g"}, .value = 9.81, .power = {0, 1, -2}},
+                                {.name = (char[]){"n"}, .value = 3}};
 enum { NAMES = sizeof names / sizeof *names };
 
 static void units_have_their_size_and_dimension(void **state)
