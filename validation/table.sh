@@ -54,20 +54,36 @@ judge L/50
 picture L/50 compare_0 "velocities of all particles over the exact ones at three times"
 
 page taylor-green-shifted taylor-green-shifted-2d terms
-runs "h/dx = 2, shifting" parameters.dx "L/25 L/50"
-judge L/50
+runs "Shifting" parameters.dx "L/25 L/50 L/100" --set compare.0.bar=0.001 --set compare.1.bar=0.005
+judge L/100
 order velocity 1.7
-picture L/50 compare_0 "velocities of all particles over the exact ones at the end"
-
-elsewhere "Taylor-Green vortices with shifting, 100 x 100" \
-  "**miss**: 0.150 %, bar 0.1 %; decays 0.5 % too fast, bar 0.5 % (tests/accuracy/test_taylor_green_shifted, with SPHODE_TEST_LONG)"
-elsewhere "Taylor-Green vortices, transport velocity, 50 x 50" \
-  "**miss**: 0.39 %, bar 0.3 % (the same test); without either 0.97 %"
+picture L/100 compare_0 "velocities of all particles over the exact ones at the end"
+say "The rate of decay is that of the kernel's Laplacian, which is smaller than the exact one by the factor 1 - sigma^2 h^2 |k|^2/4, sigma^2 = 5/18 and" \
+  "|k|^2 = 2 k^2: 0.965, 0.9912 and 0.9978 with these spacings. That is why the 0.5 % asked of it are asked of L/100."
+runs "Shifting, 50 x 50 against its bar" parameters.dx "L/50"
+judge L/50 '^velocity'
+tests accuracy/test_taylor_green_shifted "transport velocity: mean velocity error, % of U" "exact solution" "≤ 0.3" \
+  'transport velocity, 50 x 50: mean velocity error \([0-9.]*\)' "dx = L/50"
+runs "Gradients not corrected, sound at 10 U" parameters.dx "L/25 L/50 L/100" --set "groups.water.eos.tait.sound_speed=10*U" \
+  --set terms.continuity.correction=none --set terms.pressure.correction=none --set terms.viscosity-laminar.correction=none
+say "Sums of a continuity that is not corrected rise where a flow disorders the particles, and fall where shifting orders them: from this start the mean" \
+  "density falls by 0.3 % in the first moments, and the viscous force, which goes as its inverse square, is 0.7 % too large from then on: some of what the" \
+  "kernel's Laplacian lacks. Faster sound makes the errors of such gradients larger (0.0072 with L/50 and 20 U), those of corrected ones smaller."
 
 page lid-driven-cavity lid-driven-cavity-2d walls
-runs "Re = 100, shifting" parameters.n "25 50"
-judge 50
-picture 50 compare_0 "velocity along the vertical centre line, mean over 16 to 20 L/U"
+runs "Re = 100" parameters.n "25 50 100"
+combined "velocities on both centre lines" 50 0.018
+combined "velocities on both centre lines" 100 0.010
+picture 100 compare_0 "velocity along the vertical centre line, mean over 16 to 20 L/U"
+picture 100 compare_1 "velocity along the horizontal centre line, mean over 16 to 20 L/U"
+picture 100 frames "velocity along x"
+runs "Re = 400" parameters.n "25 50" --set parameters.Re=400 --set "run.end=40*L/U" \
+  --set compare.0.reference.section.file=../data/ghia_1982_re400_u.csv --set "compare.0.window=[36, 40]" \
+  --set compare.1.reference.section.file=../data/ghia_1982_re400_v.csv --set "compare.1.window=[36, 40]"
+combined "velocities on both centre lines" 50 0.018
+picture 50 compare_0 "velocity along the vertical centre line, Re = 400, mean over 36 to 40 L/U"
+runs "Re = 100, gradients not corrected" parameters.n "25 50" \
+  --set terms.continuity.correction=none --set terms.pressure.correction=none --set terms.viscosity-laminar.correction=none
 
 page hydrostatic hydrostatic-tank-2d walls
 runs "Diffusion of Antuono, H/dx = 20" run.end "10*T 60*T 120*T"
@@ -158,8 +174,6 @@ elsewhere "No-slip order between cylinders, Adami's walls" \
   "**miss**: 0.95, bar 1.0 ([walls.md](../walls.md)); between plates and for manufactured fields 1.1 and more, mirrors too"
 elsewhere "Three wall models side by side, 10 s of impact, manufactured solutions" \
   "[walls.md](../walls.md), by \`make walls\`"
-elsewhere "Lid-driven cavity, 100 x 100, and Re = 400" \
-  "not run"
 
 group "Compressible flow"
 

@@ -220,7 +220,8 @@ SPH_API sph_term sph_term_xsph(double epsilon);
  *      surface = 1    particles in reach of a free surface ("cone", sph_operator_surface) move
  *                     along it only, lone ones not at all; 0: internal flows, two passes less
  *      advection = 1  density and velocity follow: drho_i/dt and dv_i/dt gain dv_i . grad (Sun et
- *                     al. 2019); 0: as in 2017, an error of the order of dv
+ *                     al. 2019; velocities by differences, which leave a uniform flow alone); 0: as
+ *                     in 2017, an error of the order of dv
  *      steps = n > 0  between steps instead, every n accepted ones: x += tau dv, rho and v by tau
  *                     times their rates, tau the time since the last one, at most h/(8 s U); the
  *                     integrator then starts anew.  0: a rate of f

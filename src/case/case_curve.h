@@ -41,8 +41,8 @@ double sph_case_curve_norm(const char *norm, long n, const double *weight, const
 
 /* Norms that are of a run alone, and compared with one number: drift, period, decay. */
 int sph_case_curve_of_one(const char *norm);
-/* Period and rate of decay of a run that swings around zero, inside the window; NaN: too few
- * swings.  0 or SPH_ERR_MEMORY. */
+/* Period and rate of decay of a run that swings around zero, inside the window, or rate of decay of
+ * one without zeros; NaN: too few swings.  0 or SPH_ERR_MEMORY. */
 int sph_case_swing(const sph_case_curve *run, const double window[2], double *period, double *rate,
                    sph_error *error);
 

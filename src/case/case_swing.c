@@ -7,7 +7,8 @@
  *   period  2 (last passage - first)/(number of half swings)
  *   decay   - slope of ln |integral of y over a half swing| over its middle, least squares: of
  *           the damped cosine these integrals fall by exactly exp(-gamma T/2) from one to the
- *           next, whatever the phase */
+ *           next, whatever the phase; of a curve that stays on one side of zero: - slope of
+ *           ln |y|, least squares */
 #include <math.h>
 
 #include "case_curve.h"
@@ -52,29 +53,56 @@ static void find_passages(const sph_case_curve *c, const double window[2], passa
   }
 }
 
+/* Of a line by least squares. */
+typedef struct line {
+  double n, x, y, xx, xy;
+} line;
+
+static void add(line *l, double x, double y)
+{
+  l->n++;
+  l->x += x;
+  l->y += y;
+  l->xx += x * x;
+  l->xy += x * y;
+}
+
+static double slope(const line *l)
+{
+  return (l->n * l->xy - l->x * l->y) / (l->n * l->xx - l->x * l->x);
+}
+
 static double decay(const passages *p)
 {
-  double n = p->n - 1, t = 0, l = 0, tt = 0, tl = 0;
-  for (int k = 1; k < p->n; k++) {
-    double middle = 0.5 * (p->at[k] + p->at[k - 1]) - p->at[0], ln = log(p->area[k]);
-    t += middle;
-    l += ln;
-    tt += middle * middle;
-    tl += middle * ln;
+  line l = {0};
+  for (int k = 1; k < p->n; k++)
+    add(&l, 0.5 * (p->at[k] + p->at[k - 1]) - p->at[0], log(p->area[k]));
+  return -slope(&l);
+}
+
+/* Of a curve that is never zero in the window; else NaN. */
+static double decay_aside(const sph_case_curve *c, const double window[2])
+{
+  line l = {0};
+  int above = 0, below = 0;
+  for (long k = 0; k < c->n; k++) {
+    if (c->x[k] < window[0] || c->x[k] > window[1]) continue;
+    above |= c->y[k] > 0, below |= c->y[k] < 0;
+    add(&l, c->x[k] - c->x[0], log(fabs(c->y[k])));
   }
-  return -(n * tl - t * l) / (n * tt - t * t);
+  return above != below && l.n >= 2 ? -slope(&l) : NAN;
 }
 
 int sph_case_swing(const sph_case_curve *run, const double window[2], double *period, double *rate,
                    sph_error *error)
 {
   passages *p = SPH_NEW(passages, 1, "the swings of a curve", error);
-  *period = *rate = NAN;
+  *period = NAN;
   if (!p) return SPH_ERR_MEMORY;
   p->n = 0;
   find_passages(run, window, p);
   if (p->n >= 2) *period = 2 * (p->at[p->n - 1] - p->at[0]) / (p->n - 1);
-  if (p->n >= 3) *rate = decay(p);
+  *rate = p->n >= 3 ? decay(p) : decay_aside(run, window);
   sph_memory_free(p);
   return SPH_OK;
 }

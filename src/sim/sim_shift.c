@@ -37,7 +37,8 @@ static shift_constants constants_of(const sph_sim *sim)
                            .L = L,
                            .L2 = L * L,
                            .transport = transport,
-                           .surface = !sim->prepared || keeps_surface(sim)};
+                           .surface = !sim->prepared || keeps_surface(sim),
+                           .corrected = (sim->loop_terms & SPH_CONTINUITY_CORRECTED) != 0};
 }
 
 double sph_sim_shift_speed(const sph_sim *sim, const sph_group *group)
@@ -56,10 +57,13 @@ static void pass(sph_sim *sim, const shift_constants *k, int number, int sums, i
 {
   sph_pair_function *loop = sph_shift_loop(sim->isa, sim->kernel_number, sim->dim, number);
   sph_sim_pairs_clear(sim, g, sums);
-  for (int s = 0; s < sim->groups; s++)
+  for (int s = 0; s < sim->groups; s++) {
+    shift_constants of = *k;
+    of.wall = sim->group[s]->wall;
     if (sph_sim_interaction_same_species(sim->group[g], sim->group[s]))
       sph_sim_pairs_loop_records(sim, loop, g, s, sim->sorted[g].shifted, sim->sorted[s].shifted,
-                                 shift_slots(sim->dim), k);
+                                 shift_slots(sim->dim), &of);
+  }
 }
 
 /* ---- records */

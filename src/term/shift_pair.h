@@ -8,10 +8,15 @@
  *   covered        neighbours in the cone around the normal of i (Marrone et al. 2010)
  *   near           neighbours at the surface, weighed by W, and their normals
  *   advection      dv . grad of density and velocity, which follow the particle (Sun et al. 2019):
- *                    drho_i += sum_j V_j (rho_i (dv_i - dv_j) + rho_i dv_i + rho_j dv_j) . grad W
- *                    a_i    += sum_j V_j (v_i (dv_i + dv_i - dv_j) + v_j dv_j) . grad W
+ *                    drho_i += sum_j V_j (rho_i (dv_i - dv_j) + rho_i dv_i + rho_j dv_j) . grad W,
+ *                              sum_j V_j (rho_j - rho_i) dv_j . grad W with corrected continuity
+ *                    a_i    += sum_j V_j (v_j - v_i) dv_i . grad W, j in fluids alone
  *                  transport, a_i: 1/m_i sum_j (V_i^2 + V_j^2)/2 (A_i + A_j) . grad W, A = rho v dv
  *                  (Adami, Hu & Adams 2013)
+ *
+ * The first drho_i is 2 rho dv_i . grad C_i where rho is uniform: as the kernel sums of continuity
+ * rise where a flow disorders particles, so these fall where shifting orders them, and density
+ * stays.  Corrected sums do not see order.  Differences of v leave a uniform flow alone.
  *
  * Walls have dv = 0.  F and W go without their constant factors.  Sums of these passes would not
  * fit beside those of a fused loop with tiles, nor dv in its records. */
@@ -25,6 +30,8 @@ typedef struct shift_constants {
   double L2;    /* (kappa h/2)^2 [m^2], of the cone; */
   double L;
   int transport, surface;
+  int corrected; /* the gradients of continuity are */
+  int wall;      /* the source is one */
 } shift_constants;
 
 /* A record: x v rho V dv normal flag; flag 1: at the surface.  The first pass reads it to V. */
@@ -99,13 +106,14 @@ BODY void shift_advection(int dim, int kernel, const shift_constants *k, const v
   vec V_i = i[shift_V(dim)], V_j = j[shift_V(dim)], VF = V_j * F;
   vec from_i = fluid_dot(dim, r, i + shift_drift(dim));
   vec from_j = fluid_dot(dim, r, j + shift_drift(dim)), twice = 2 * from_i - from_j;
-  sum[SHIFT_DRHO] += VF * (rho_i * twice + rho_j * from_j);
+  sum[SHIFT_DRHO] +=
+      VF * (k->corrected ? (rho_j - rho_i) * from_j : rho_i * twice + rho_j * from_j);
   if (k->transport) {
     vec half = 0.5 * F * (V_i * V_i + V_j * V_j) / (V_i * rho_i);
     for (int d = 0; d < dim; d++)
       sum[SHIFT_A + d] += half * (rho_i * v_i[d] * from_i + rho_j * v_j[d] * from_j);
-  } else
-    for (int d = 0; d < dim; d++) sum[SHIFT_A + d] += VF * (v_i[d] * twice + v_j[d] * from_j);
+  } else if (!k->wall)
+    for (int d = 0; d < dim; d++) sum[SHIFT_A + d] += VF * (v_j[d] - v_i[d]) * from_i;
 }
 
 #endif

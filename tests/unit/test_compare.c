@@ -236,6 +236,26 @@ static void period_and_decay_of_a_swing(void **state)
   }
 }
 
+/* 2 exp(-0.3 x), and the same below zero; not where it passes through zero once. */
+static void decay_without_zeros(void **state)
+{
+  const sph_case_curve none = {0, ref_x, ref_y};
+  sph_error error = {0};
+  (void)state;
+  make(0, 0);
+  for (int k = 0; k < 3; k++) {
+    for (int i = 0; i < RUN; i++)
+      run_y[i] = (k == 1 ? -1 : k == 2 && run_x[i] > 2 ? -1 : 1) * 2 * exp(-0.3 * run_x[i]);
+    sph_case_distance d = plain("decay");
+    d.one = 0.25;
+    assert_int_equal(sph_case_curve_compare(&run, &none, &d, &error), SPH_OK);
+    if (k == 2)
+      assert_true(isnan(d.value) && d.used == 0);
+    else
+      near(d.value, 0.05, 1e-12);
+  }
+}
+
 static void the_drift_is_the_largest_change(void **state)
 {
   const sph_case_curve none = {0, ref_x, ref_y};
@@ -459,6 +479,7 @@ int main(void)
       cmocka_unit_test(the_mean_of_a_plateau),
       cmocka_unit_test(the_arrival_is_the_first_passage),
       cmocka_unit_test(period_and_decay_of_a_swing),
+      cmocka_unit_test(decay_without_zeros),
       cmocka_unit_test(the_drift_is_the_largest_change),
       cmocka_unit_test(weights_count),
       cmocka_unit_test(files_are_read_and_scaled),
