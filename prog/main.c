@@ -14,6 +14,12 @@ typedef struct command {
 } command;
 
 static const command commands[] = {
+    {"new", "[TEMPLATE]", "ofq", sph_prog_new, "write a case to begin with, with comments",
+     "  TEMPLATE is tank (default), piston, channel or gas; the file is TEMPLATE.yml here.\n"
+     "\n"
+     "  -o, --output FILE      another name; -: to standard output\n"
+     "  -f, --force            write over a file\n"
+     "  -q, --quiet            nothing is told\n"},
     {"run", "CASE.yml", "ostqfbl", sph_prog_run,
      "run a case; results, summary and pictures go to a directory",
      "  -o, --output DIR       where to (default: the name of the case file, here)\n"
@@ -46,6 +52,28 @@ static const command commands[] = {
      "validate a case and estimate its cost; nothing is written",
      "  -s, --set KEY=VALUE    as with run\n"
      "  -t, --threads N        as with run\n"},
+    {"sweep", "CASE.yml", "ostqflyJ", sph_prog_sweep,
+     "run a case with several values of some keys; a table and orders of convergence",
+     "      --vary KEY=V,V,... a run for each value: dx=2cm,1cm (a parameter),\n"
+     "                         terms.delta.delta=0,0.1; repeated: all combinations\n"
+     "      --jobs N           runs at a time (default: 1)\n"
+     "  -o, --output DIR       where to, a directory a run in it (default: the name of the case "
+     "file\n"
+     "                         and -sweep, here)\n"
+     "  -s, --set KEY=VALUE    as with run\n"
+     "  -t, --threads N        of each run\n"
+     "  -f, --force            write over a sweep that ended\n"
+     "  -q, --quiet            no table\n"
+     "      --lenient          as with run\n"
+     "\n"
+     "Leaves sweep.csv, RUN/ and RUN.log of each run, and convergence.csv and convergence.png "
+     "where\n"
+     "there are comparisons.  Exit status: 0 done, 1 a run failed (the others are kept), 3 a\n"
+     "comparison misses its bar.\n"},
+    {"schema", "", "", sph_prog_schema, "print the JSON Schema of case files, for editors",
+     "  In an editor with a YAML language server: sphode schema > sphode.schema.json, and as the\n"
+     "  first line of a case\n"
+     "  # yaml-language-server: $schema=sphode.schema.json\n"},
     {"info", "LIST", "jcQPD", sph_prog_info,
      "what there is: kernels, eos, materials, terms, integrators, boundaries, searches, case",
      "  LIST is kernels, eos, materials, terms, integrators, boundaries, searches, or case (the\n"
@@ -145,6 +173,8 @@ static const struct option options[] = {
     {"timeout", required_argument, NULL, 'M'},
     {"fixed", no_argument, NULL, 'X'},
     {"frozen", no_argument, NULL, 'Z'},
+    {"vary", required_argument, NULL, 'y'},
+    {"jobs", required_argument, NULL, 'J'},
     {"help", no_argument, NULL, 'h'},
     {"version", no_argument, NULL, 'V'},
     {NULL, 0, NULL, 0},
@@ -170,7 +200,7 @@ static void print_help(const command *c)
   puts("Usage: sphode COMMAND [OPTION]... ARGUMENT\n\n"
        "Smoothed particle hydrodynamics as a system of ordinary differential equations.\n");
   for (int k = 0; k < COMMANDS; k++)
-    printf("  %-14s %-9s %s\n", commands[k].name, commands[k].argument, commands[k].about);
+    printf("  %-14s %-10s %s\n", commands[k].name, commands[k].argument, commands[k].about);
   puts("\n  sphode COMMAND --help   its options\n"
        "  sphode --version\n\n"
        "Exit status: 0 done, 1 failed, 2 bad usage; run and restart also 3, 4, 130, 143.");
@@ -215,6 +245,12 @@ static int take(prog_options *o, int letter, const char *value)
   case 'U': o->until = value; break;
   case 'X': o->fixed = 1; break;
   case 'Z': o->frozen = 1; break;
+  case 'J': return number("jobs", value, PROG_JOBS, &o->jobs);
+  case 'y':
+    if (o->varied == PROG_VARIED)
+      return sph_prog_error(PROG_USAGE, "more than %d times --vary", PROG_VARIED);
+    o->vary[o->varied++] = value;
+    break;
   case 'q': o->quiet = 1; break;
   case 'f': o->force = 1; break;
   case 'b': o->lenient = 0; break;
@@ -257,14 +293,18 @@ static int parse(const command *c, int argc, char **argv, prog_options *o)
       status = take(o, letter, optarg);
   }
   argv[0] = first;
-  if (!status && argc - optind != 1)
-    status = sph_prog_error(PROG_USAGE, "%s wants one %s, found %d", c->name, c->argument,
-                            argc - optind);
+  const int given = argc - optind, may = c->argument[0] != 0, must = may && c->argument[0] != '[';
+  if (!status && (given < must || given > may))
+    status = sph_prog_error(PROG_USAGE, "%s wants %s%s, found %d", c->name,
+                            !may   ? "no argument"
+                            : must ? "one "
+                                   : "at most one ",
+                            c->argument, given);
   if (status) {
     fprintf(stderr, "Try 'sphode %s --help'.\n", c->name);
     return status;
   }
-  o->what = argv[optind];
+  o->what = given ? argv[optind] : NULL;
   return -1;
 }
 

@@ -2,6 +2,7 @@
 #ifndef SPH_PROG_H
 #define SPH_PROG_H
 #include <sphode.h>
+#include <stdio.h>
 
 enum { PROG_OK = 0, PROG_FAILED = 1, PROG_USAGE = 2, PROG_BAR = 3, PROG_LIMIT = 4 };
 enum {
@@ -9,11 +10,13 @@ enum {
   PROG_THREADS = 1024,
   PROG_FRAMES = 16,
   PROG_REPEATS = 100,
-  PROG_SECONDS = 1000000
+  PROG_SECONDS = 1000000,
+  PROG_VARIED = 4,
+  PROG_JOBS = 256
 }; /* at most, as in the library */
 
 typedef struct prog_options {
-  const char *what;   /* the case file, the directory, the list */
+  const char *what;   /* the case file, the directory, the list; NULL: not given */
   const char *output; /* NULL: by the name of the case */
   const char *set[PROG_SETS];
   int sets;
@@ -29,13 +32,23 @@ typedef struct prog_options {
   const char *fields; /* NULL: all */
   /* work-precision: lists with commas between; NULL: the defaults. */
   const char *integrators, *tolerances, *cfl, *reference;
-  const char *until; /* NULL: the end of the case */
-  int repeat;        /* 0: 1 */
-  int timeout;       /* of a run [s]; 0: none */
-  int fixed;         /* no error control */
-  int frozen;        /* spectrum: positions are held */
+  const char *until;             /* NULL: the end of the case */
+  int repeat;                    /* 0: 1 */
+  int timeout;                   /* of a run [s]; 0: none */
+  int fixed;                     /* no error control */
+  int frozen;                    /* spectrum: positions are held */
+  const char *vary[PROG_VARIED]; /* sweep: "dx=0.02,0.01" */
+  int varied, jobs;              /* jobs 0: 1 */
+  FILE *report;                  /* run: what a sweep wants to know; NULL: nobody asks */
+  const char *picture;           /* check: of the geometry; NULL: none */
   char command[2000];
 } prog_options;
+
+/* Cases to begin with, made of prog/templates; behind the last: NULL. */
+typedef struct prog_template {
+  const char *name, *text;
+} prog_template;
+extern const prog_template sph_prog_templates[];
 
 /* Each returns the exit status of the program. */
 int sph_prog_run(const prog_options *o);
@@ -46,6 +59,9 @@ int sph_prog_plot(const prog_options *o);
 int sph_prog_export(const prog_options *o);
 int sph_prog_work_precision(const prog_options *o);
 int sph_prog_spectrum(const prog_options *o);
+int sph_prog_sweep(const prog_options *o);
+int sph_prog_new(const prog_options *o);
+int sph_prog_schema(const prog_options *o);
 
 /* sphode info kernels: for people; --csv --q, which returns the exit status. */
 void sph_prog_kernels_table(void);

@@ -21,6 +21,8 @@ static const char *const ours[] = {
     "evaluations.png",    "evaluations.gp",      "evaluations.dat",       "seconds.png",
     "seconds.gp",         "seconds.dat",         "spectrum.csv",          "spectrum.txt",
     "regions.csv",        "spectrum.png",        "spectrum.gp",           "spectrum.dat",
+    "sweep.csv",          "convergence.csv",     "convergence.png",       "convergence.gp",
+    "convergence.dat",
 };
 
 static int is_ours(const char *name)
@@ -81,7 +83,7 @@ int sph_prog_directory_take(const char *directory, int force)
   if (at < 0) return -1;
   if (!force &&
       (!faccessat(at, "summary.json", F_OK, 0) || !faccessat(at, "work-precision.csv", F_OK, 0) ||
-       !faccessat(at, "spectrum.txt", F_OK, 0)))
+       !faccessat(at, "spectrum.txt", F_OK, 0) || !faccessat(at, "sweep.csv", F_OK, 0)))
     sph_prog_error(PROG_FAILED,
                    "%s holds a run that ended; --output DIR goes elsewhere, --force writes over it",
                    directory);

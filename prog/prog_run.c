@@ -140,6 +140,24 @@ static int judge(const prog_job *j)
                         j->directory, missed, j->comparisons, missed == 1 ? "misses" : "miss");
 }
 
+/* For a sweep, which reads it again. */
+static void report(const prog_job *j, FILE *to)
+{
+  sph_sim_stats stats;
+  const sph_group *group;
+  long particles = 0;
+  if (!to) return;
+  sph_sim_get_stats(j->sim, &stats);
+  for (int k = 0; (group = sph_sim_group_get(j->sim, k)); k++)
+    if (!strcmp(sph_group_kind(group), "fluid")) particles += sph_group_count(group);
+  fprintf(to, "run %.17g %ld %ld %.9g\n", sph_sim_dx(j->sim), particles, stats.step.steps,
+          stats.seconds);
+  for (int k = 0; k < j->comparisons; k++)
+    fprintf(to, "compare %.17g %.17g %s %s\n", j->comparison[k].value, j->comparison[k].bar,
+            j->comparison[k].norm, j->comparison[k].name);
+  fflush(to);
+}
+
 /* What is told of a run, also of one that failed or was stopped. */
 static int conclude(prog_job *j)
 {
@@ -161,6 +179,7 @@ int sph_prog_run_finish(prog_job *j, int status)
     int compared = status ? status : compare(j), concluded = conclude(j);
     if (!status) status = compared ? compared : concluded;
     if (!status) status = judge(j);
+    report(j, j->o->report);
   }
   sph_case_compare_free(j->comparison, j->comparisons);
   sph_sim_free(j->sim);

@@ -68,6 +68,8 @@ SPH_API int sph_case_plot_frames(const sph_case *c);
 /* The manual of the format as Markdown, made from the same table that checks case files.  As
  * snprintf. */
 SPH_API int sph_case_manual(char *buffer, size_t size);
+/* The same as a JSON Schema, for editors.  As snprintf. */
+SPH_API int sph_case_schema_json(char *buffer, size_t size);
 
 #ifdef __cplusplus
 }

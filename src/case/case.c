@@ -68,14 +68,28 @@ static int put(sph_case *c, const char *set, char *path, sph_case_node *given)
   return SPH_OK;
 }
 
+/* "dx=1cm" is a parameter where there is one of that name and no such key of the file. */
+static int is_parameter(const sph_case *c, const char *set, const char *end)
+{
+  char name[60];
+  if ((size_t)(end - set) >= sizeof name || c->root->kind != SPH_CASE_MAP) return 0;
+  snprintf(name, sizeof name, "%.*s", (int)(end - set), set);
+  for (int k = 0; sph_case_schema_key(k); k++)
+    if (!strcmp(sph_case_schema_key(k)->mapping, "case") &&
+        !strcmp(sph_case_schema_key(k)->name, name))
+      return 0;
+  return sph_case_reader_find(sph_case_reader_find(c->root, "parameters"), name) != NULL;
+}
+
 static int apply(sph_case *c, const char *set)
 {
   const char *value = strchr(set, '=');
   char path[200];
-  if (!value || value == set || (size_t)(value - set) >= sizeof path)
+  if (!value || value == set || (size_t)(value - set) >= sizeof path - 20)
     return sph_error_set(c->error, SPH_ERR_PARSE, "--set %.100s: wanted key=value, as spacing=1cm",
                          set);
-  snprintf(path, sizeof path, "%.*s", (int)(value - set), set);
+  snprintf(path, sizeof path, "%s%.*s", is_parameter(c, set, value) ? "parameters." : "",
+           (int)(value - set), set);
   sph_case_node *given = sph_case_reader_parse(set, value + 1, strlen(value + 1), c->error);
   if (!given) return c->error->status;
   set_origin(given, set);

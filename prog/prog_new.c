@@ -1,0 +1,71 @@
+/* sphode new: a case to begin with; sphode schema: what editors know cases by. */
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "prog.h"
+
+static const prog_template *find(const char *name)
+{
+  for (const prog_template *t = sph_prog_templates; t->name; t++)
+    if (!strcmp(t->name, name)) return t;
+  return NULL;
+}
+
+/* "# A column of water ...": the first sentence tells what it is. */
+static void list(FILE *to)
+{
+  for (const prog_template *t = sph_prog_templates; t->name; t++)
+    fprintf(to, "  %-10s %.*s\n", t->name, (int)strcspn(t->text + 2, ".\n"), t->text + 2);
+}
+
+static int write_file(const char *path, const char *text, int force)
+{
+  const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | (force ? O_TRUNC : O_EXCL);
+  const int at = open(path, flags, 0666);
+  if (at < 0 && errno == EEXIST)
+    return sph_prog_error(PROG_FAILED,
+                          "%s is there already; --output FILE goes elsewhere, --force writes over "
+                          "it",
+                          path);
+  FILE *file = at < 0 ? NULL : fdopen(at, "wb");
+  int bad = !file || fwrite(text, 1, strlen(text), file) != strlen(text);
+  bad = (file && fclose(file)) || bad;
+  return bad ? sph_prog_error(PROG_FAILED, "cannot write %s: %s", path, strerror(errno)) : PROG_OK;
+}
+
+int sph_prog_new(const prog_options *o)
+{
+  char path[80];
+  const prog_template *t = find(o->what ? o->what : "tank");
+  if (!t) {
+    sph_prog_error(PROG_USAGE, "new: no template '%s'; known are", o->what);
+    list(stderr);
+    return PROG_USAGE;
+  }
+  if (o->output && !strcmp(o->output, "-"))
+    return fputs(t->text, stdout) < 0 ? PROG_FAILED : PROG_OK;
+  snprintf(path, sizeof path, "%s.yml", t->name);
+  const char *name = o->output ? o->output : path;
+  int status = write_file(name, t->text, o->force);
+  if (status || o->quiet) return status;
+  printf("%s is written; now\n  sphode check %s\n  sphode run %s\nOther templates:\n", name, name,
+         name);
+  list(stdout);
+  return PROG_OK;
+}
+
+int sph_prog_schema(const prog_options *o)
+{
+  (void)o;
+  const int n = sph_case_schema_json(NULL, 0);
+  char *text = n > 0 ? malloc((size_t)n + 1) : NULL;
+  if (!text) return sph_prog_error(PROG_FAILED, "out of memory");
+  sph_case_schema_json(text, (size_t)n + 1);
+  fputs(text, stdout);
+  free(text);
+  return PROG_OK;
+}

@@ -1,0 +1,105 @@
+#!/usr/bin/env bash
+# Making cases: templates, their JSON Schema, sweeps.
+sphode=${SPHODE:-$BUILDDIR/sphode}
+stage=$(mktemp -d) || exit 99
+trap 'rm -rf "$stage"' EXIT
+cd "$stage" || exit 99
+export OMP_WAIT_POLICY=passive
+
+count=0
+ok() { # 0 or not, name
+  count=$((count + 1))
+  if [[ $1 == 0 ]]; then echo "ok $count - $2"; else echo "not ok $count - $2"; fi
+}
+run() { # STATUS COMMAND...: standard output to out, errors to err
+  local wanted=$1 status
+  shift
+  "$@" >out 2>err
+  status=$?
+  [[ $status == "$wanted" ]] && return
+  echo "# exit status $status, wanted $wanted: $*"
+  sed 's/^/# /' out err
+  return 1
+}
+
+# ---- templates
+
+good=0
+for t in tank piston channel gas; do
+  run 0 "$sphode" new $t -q && [[ ! -s out ]] && cmp $t.yml "$SRCDIR/prog/templates/$t.yml" && run 0 "$sphode" check $t.yml &&
+    grep -q "^the case  *right, 0 warnings" out || { good=1; sed 's/^/# /' out; }
+done
+ok $good "each template is written and right as it is, without a warning"
+cp tank.yml before
+run 1 "$sphode" new && grep -q "tank.yml is there already" err && cmp tank.yml before
+ok $? "a file that is there is kept"
+run 0 "$sphode" new gas -f -o tank.yml && cmp tank.yml gas.yml && grep -q "sphode run tank.yml" out
+ok $? "--force writes over it, and what to do next is told"
+run 0 "$sphode" new gas -o - && cmp out gas.yml
+ok $? "to standard output"
+run 2 "$sphode" new nothing && grep -q "no template 'nothing'" err && grep -q "^  piston " err
+ok $? "an unknown template names the known ones"
+run 0 "$sphode" run gas.yml -q && [[ -s gas/summary.json ]]
+ok $? "one runs as it is, within its bar"
+
+# ---- the schema
+
+run 0 "$sphode" schema && cmp out "$SRCDIR/docs/sphode.schema.json"
+ok $? "docs/sphode.schema.json is that of the table (sphode schema > docs/sphode.schema.json)"
+if python3 -c 'import jsonschema, yaml' 2>/dev/null; then
+  python3 - "$SRCDIR" <<'END'
+import glob, json, sys, jsonschema, yaml
+root = sys.argv[1]
+schema = json.load(open(root + "/docs/sphode.schema.json"))
+validator = jsonschema.validators.validator_for(schema)
+validator.check_schema(schema)
+v, bad = validator(schema), 0
+for name in sorted(glob.glob(root + "/cases/*.yml") + glob.glob(root + "/prog/templates/*.yml")):
+    for e in v.iter_errors(yaml.safe_load(open(name))):
+        print("#", name, list(e.absolute_path), e.message[:200]); bad += 1
+wrong = 0
+base = yaml.safe_load(open(root + "/prog/templates/tank.yml"))
+for change in ({"spacng": 1}, {"dimension": 4}, {"search": "gird"}, {"run": {}}, {"periodic": {"axes": "x"}},
+               {"groups": {"w": {"kind": "fluid", "shapes": [{"box": {}, "ball": {}}]}}}, {"output": {"compression": 10}},
+               {"compare": [{"name": "a", "quantity": "b", "reference": {}}]}):
+    found = any(v.iter_errors({**base, **change})); wrong += found
+    if not found: print("# taken:", change)
+for key in ("dimension", "spacing", "groups", "terms", "run"):
+    without = {k: x for k, x in base.items() if k != key}
+    wrong += any(v.iter_errors(without)) and not any(v.iter_errors({**without, "include": "a.yml"}))
+sys.exit(bad or wrong != 13)
+END
+  ok $? "all cases are right by it, and what is wrong is not"
+else
+  ok 0 "all cases are right by it # SKIP no python3 with jsonschema and yaml"
+fi
+
+# ---- sweeps
+
+small=(--set run.end=0.01s)
+run 1 "$sphode" sweep channel.yml --vary dx=L/10,L/4,L/20 --jobs 2 "${small[@]}" && grep -q "^dx=L_4  *failed" out &&
+  grep -q "1 of 3 runs failed" err && [[ -s channel-sweep/dx=L_10/summary.json && -s channel-sweep/dx=L_20/summary.json ]] &&
+  grep -q "periodic" channel-sweep/dx=L_4.log
+ok $? "a run that fails is told, and the others are kept"
+# The order is that of the distances in their own summaries.
+value() { sed -n 's/^ *"value": \([^,]*\),*$/\1/p' "channel-sweep/$1/summary.json" | head -1; }
+awk -F, -v a="$(value dx=L_10)" -v b="$(value dx=L_20)" '
+  NR == 1 { if ($0 != "run,dx,status,spacing [m],particles,steps,wall [s],velocity at the end (rms),order 0") bad = 1; next }
+  { n++; if ($3 != ($1 == "dx=L_4")) bad = 1 }
+  $1 == "dx=L_10" { e = $8 / a - 1; if (e * e > 1e-12 || $4 != 0.0001 || $5 != 100) bad = 1 }
+  $1 == "dx=L_20" { p = log(b / a) / log(0.5); e = $9 - p; if (e * e > 1e-5 || $8 == "nan") bad = 1 }
+  END { exit bad || n != 3 }' channel-sweep/sweep.csv || { sed 's/^/# /' channel-sweep/sweep.csv; false; }
+ok $? "sweep.csv holds distances and their order"
+if command -v gnuplot >/dev/null; then [[ -s channel-sweep/convergence.png ]]; ok $? "its picture"; else ok 0 "its picture # SKIP no gnuplot"; fi
+run 1 "$sphode" sweep channel.yml --vary dx=L/10 "${small[@]}" && grep -q "holds a run that ended" err
+ok $? "a sweep that ended is not written over"
+run 3 "$sphode" sweep channel.yml --vary dx=L/10 --vary "terms.gravity.acceleration=[F,0],[2*F,0]" "${small[@]}" -o two -q &&
+  [[ ! -s out && -d two/dx=L_10,terms.gravity.acceleration=_F_0_ && $(wc -l <two/sweep.csv) == 3 ]]
+ok $? "all combinations; commas in brackets are of a value; a missed bar is exit status 3"
+run 1 "$sphode" sweep channel.yml --vary dx=1cm,1s -o three && grep -q "spacing: found s, wanted m" err && [[ ! -e three ]]
+ok $? "a value that is wrong is told before any run"
+good=0
+for bad in dx dx= =1 dx=1,,2; do run 2 "$sphode" sweep channel.yml --vary $bad && grep -q "^sphode: .*--vary $bad" err || good=1; done
+run 2 "$sphode" sweep channel.yml && grep -q "sweep wants --vary" err || good=1
+ok $good "bad --vary"
+echo 1..$count
