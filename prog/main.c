@@ -20,7 +20,7 @@ static const command commands[] = {
      "  -o, --output FILE      another name; -: to standard output\n"
      "  -f, --force            write over a file\n"
      "  -q, --quiet            nothing is told\n"},
-    {"run", "CASE.yml", "ostqfbl", sph_prog_run,
+    {"run", "CASE.yml", "ostqfblw", sph_prog_run,
      "run a case; results, summary and pictures go to a directory",
      "  -o, --output DIR       where to (default: the name of the case file, here)\n"
      "  -s, --set KEY=VALUE    instead of what the file says: spacing=1cm, run.end=2s,\n"
@@ -29,12 +29,14 @@ static const command commands[] = {
      "  -f, --force            write over a run that ended, or one that can go on\n"
      "  -q, --quiet            no progress, no summary\n"
      "      --lenient          exit status 0, not 3, where a comparison misses its bar\n"
+     "      --live[=PORT]      a page in the browser, at the address that is told: particles,\n"
+     "                         series, pause, stop\n"
      "\n"
      "Exit status: 0 done, 1 failed, 2 bad usage, 3 done, but a comparison misses its bar,\n"
      "4 stopped by run.time_limit, 130 or 143 stopped by Ctrl-C or SIGTERM (outputs and summary "
      "are whole then, too, and restart\n"
      "goes on).\n"},
-    {"restart", "DIR", "sUtqbl", sph_prog_restart,
+    {"restart", "DIR", "sUtqblw", sph_prog_restart,
      "go on with a run that was killed, stopped or is to go further",
      "  From the last good checkpoint, with the case that it holds; files go on where they were.\n"
      "  Results have the same bits as without the interruption (relax: within 1e-8).\n"
@@ -46,6 +48,7 @@ static const command commands[] = {
      "  -t, --threads N        as with run\n"
      "  -q, --quiet            as with run\n"
      "      --lenient          as with run\n"
+     "      --live[=PORT]      as with run\n"
      "\n"
      "Exit status: as with run.\n"},
     {"check", "CASE.yml", "st", sph_prog_check,
@@ -153,6 +156,7 @@ static const struct option options[] = {
     {"force", no_argument, NULL, 'f'},
     {"strict", no_argument, NULL, 'b'}, /* the default since 0.5.0 */
     {"lenient", no_argument, NULL, 'l'},
+    {"live", optional_argument, NULL, 'w'},
     {"json", no_argument, NULL, 'j'},
     {"csv", no_argument, NULL, 'c'},
     {"q", required_argument, NULL, 'Q'},
@@ -255,6 +259,7 @@ static int take(prog_options *o, int letter, const char *value)
   case 'f': o->force = 1; break;
   case 'b': o->lenient = 0; break;
   case 'l': o->lenient = 1; break;
+  case 'w': o->live = 1; return value ? number("live", value, PROG_PORTS, &o->port) : PROG_OK;
   case 'j': o->json = 1; break;
   case 'c': o->csv = 1; break;
   case 'v': o->vtu = 1; break;

@@ -12,7 +12,8 @@ enum {
   PROG_REPEATS = 100,
   PROG_SECONDS = 1000000,
   PROG_VARIED = 4,
-  PROG_JOBS = 256
+  PROG_JOBS = 256,
+  PROG_PORTS = 65535
 }; /* at most, as in the library */
 
 typedef struct prog_options {
@@ -22,6 +23,7 @@ typedef struct prog_options {
   int sets;
   int threads; /* 0: what the case says */
   int quiet, force, lenient, json, csv;
+  int live, port;      /* a page; port 0: a free one */
   const char *q;       /* "0,0.25,1.3" */
   const char *spacing; /* info kernels: in metres; NULL: not asked for */
   int dim;             /* 0: 2 and 3 */
@@ -88,6 +90,7 @@ typedef struct prog_progress {
   double stepped, longest;        /* wall time of the last step, longest step so far [s] */
   double from;                    /* where the run began, or goes on [s] */
   int quiet, live;                /* live: one line that is written over */
+  struct prog_live *page;         /* prog_live.h; NULL: none */
   long bound_by[SPH_BOUND_COUNT]; /* at the last line */
 } prog_progress;
 

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "prog.h"
+#include "prog_live.h"
 
 static volatile sig_atomic_t stopped_by;
 
@@ -81,6 +82,12 @@ static int is_due(prog_progress *p, const sph_sim *sim)
   return 1;
 }
 
+static int is_stopped(void *ctx)
+{
+  const prog_progress *p = ctx;
+  return stopped_by || (p->deadline > 0 && sph_prog_progress_now() > p->deadline);
+}
+
 static int progress(void *ctx, sph_sim *sim)
 {
   prog_progress *p = ctx;
@@ -88,7 +95,8 @@ static int progress(void *ctx, sph_sim *sim)
   p->longest = fmax(p->longest, now - p->stepped);
   p->stepped = now;
   if (!p->quiet && is_due(p, sim)) tell(p, sim);
-  return stopped_by || (p->deadline > 0 && now > p->deadline) || sph_prog_progress_over(p);
+  if (p->page && sph_prog_live_step(p->page, sim, is_stopped, p)) return 1;
+  return is_stopped(p) || sph_prog_progress_over(p);
 }
 
 int sph_prog_progress_over(const prog_progress *p)

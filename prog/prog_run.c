@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "prog_job.h"
+#include "prog_live.h"
 
 /* --output, or the name of the case file without what is behind its last dot. */
 static void name_directory(prog_job *j)
@@ -98,7 +99,9 @@ static int simulate(prog_job *j)
   const double limit = sph_case_time_limit(j->c);
   sph_prog_progress_start(&progress, j->sim, j->end, j->o->quiet);
   if (limit > 0) progress.limit = progress.start + limit;
+  if (j->o->live && !(progress.page = sph_prog_live_start(j->o->port, j->end))) return PROG_FAILED;
   int status = sph_sim_run(j->sim, j->end);
+  sph_prog_live_end(progress.page);
   sph_prog_progress_end(&progress);
   if (status == SPH_OK) return PROG_OK;
   sph_prog_error(PROG_FAILED, "%s: %s", j->directory, sph_sim_error(j->sim));

@@ -232,10 +232,12 @@ static int check_walls(sph_sim *sim)
 /* Positions may have been written since walls were added: their motion starts there. */
 static void start_walls(sph_sim *sim)
 {
-  for (int g = 0; g < sim->groups; g++)
-    for (int d = 0; sim->group[g]->wall && d < sim->dim; d++)
-      memcpy(sim->group[g]->start[d], sim->group[g]->own[SPH_POSITION][d],
-             (size_t)sim->group[g]->n * sizeof(double));
+  for (int g = 0; g < sim->groups; g++) {
+    sph_group *group = sim->group[g];
+    if (!group->wall || !group->n) continue; /* a mirror has no particles */
+    for (int d = 0; d < sim->dim; d++)
+      memcpy(group->start[d], group->own[SPH_POSITION][d], (size_t)group->n * sizeof(double));
+  }
 }
 
 void sph_sim_prepare_h(sph_sim *sim)
