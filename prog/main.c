@@ -51,8 +51,9 @@ static const command commands[] = {
      "      --live[=PORT]      as with run\n"
      "\n"
      "Exit status: as with run.\n"},
-    {"check", "CASE.yml", "st", sph_prog_check,
-     "validate a case and estimate its cost; nothing is written",
+    {"check", "CASE.yml", "stK", sph_prog_check,
+     "validate a case and estimate its cost; nothing but the picture is written",
+     "      --picture PNG      draw its groups; in 3D a slice through the middle\n"
      "  -s, --set KEY=VALUE    as with run\n"
      "  -t, --threads N        as with run\n"},
     {"sweep", "CASE.yml", "ostqflyJ", sph_prog_sweep,
@@ -179,6 +180,7 @@ static const struct option options[] = {
     {"frozen", no_argument, NULL, 'Z'},
     {"vary", required_argument, NULL, 'y'},
     {"jobs", required_argument, NULL, 'J'},
+    {"picture", required_argument, NULL, 'K'},
     {"help", no_argument, NULL, 'h'},
     {"version", no_argument, NULL, 'V'},
     {NULL, 0, NULL, 0},
@@ -249,6 +251,7 @@ static int take(prog_options *o, int letter, const char *value)
   case 'U': o->until = value; break;
   case 'X': o->fixed = 1; break;
   case 'Z': o->frozen = 1; break;
+  case 'K': o->picture = value; break;
   case 'J': return number("jobs", value, PROG_JOBS, &o->jobs);
   case 'y':
     if (o->varied == PROG_VARIED)

@@ -1,9 +1,15 @@
 /* sphode check: is a case right, and what would it cost? */
+#include <dirent.h>
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "prog.h"
+
+enum { STAGE = 200 };
 
 static void print_groups(const sph_sim *sim)
 {
@@ -16,12 +22,46 @@ static void print_groups(const sph_sim *sim)
          sph_sim_dx(sim), sph_sim_h(sim), sph_sim_h(sim) / sph_sim_dx(sim), sph_sim_kernel(sim));
 }
 
-static int warnings(const sph_sim *sim)
+static int warnings(const sph_case *c, const sph_sim *sim)
 {
-  char text[300];
-  int n = 0;
+  char text[400];
+  int n = 0, m = 0;
   for (; sph_sim_warning(sim, n, text, sizeof text); n++) printf("warning      %s\n", text);
-  return n;
+  for (; sph_case_warning(c, m, text, sizeof text); m++) printf("warning      %s\n", text);
+  return n + m;
+}
+
+/* A place for the outputs of the trial, which show what is wrong with probes and monitors. */
+static int make_stage(char stage[STAGE])
+{
+  const char *temporary = getenv("TMPDIR");
+  snprintf(stage, STAGE, "%s/sphode-check-XXXXXX", temporary ? temporary : "/tmp");
+  if (mkdtemp(stage)) return PROG_OK;
+  sph_prog_error(PROG_FAILED, "cannot make the directory %s: %s", stage, strerror(errno));
+  stage[0] = 0;
+  return PROG_FAILED;
+}
+
+static void remove_stage(const char *stage)
+{
+  char path[STAGE + 300];
+  DIR *list = *stage ? opendir(stage) : NULL;
+  for (struct dirent *entry; list && (entry = readdir(list));) {
+    snprintf(path, sizeof path, "%s/%s", stage, entry->d_name);
+    if (entry->d_name[0] != '.') unlink(path);
+  }
+  if (list) closedir(list);
+  if (*stage) rmdir(stage);
+}
+
+static int picture(const prog_options *o, const sph_case *c, const sph_sim *sim)
+{
+  sph_error error = {0};
+  if (!o->picture) return PROG_OK;
+  if (sph_plot_geometry(sim, sph_case_title(c), o->picture, &error))
+    return sph_prog_error(PROG_FAILED, "no picture: %s", error.text);
+  printf("%-12s %s\n", "picture", o->picture);
+  return PROG_OK;
 }
 
 enum { STEPS = 20 };
@@ -57,23 +97,36 @@ static int estimate(sph_sim *sim, double end)
   return SPH_OK;
 }
 
+/* The simulation at its start, then a few steps with its outputs. */
+static int try_out(const prog_options *o, const sph_case *c, sph_sim *sim, const char *stage,
+                   sph_error *error)
+{
+  printf("%s\n\n", sph_case_title(c));
+  print_groups(sim);
+  int n = warnings(c, sim), status = picture(o, c, sim);
+  if (status) return status;
+  sph_case_build_series(c, sim, stage);
+  if (!sph_sim_status(sim)) status = estimate(sim, sph_case_end(c));
+  if (sph_sim_status(sim) && sph_sim_status(sim) != SPH_ERR_STOPPED) status = sph_sim_status(sim);
+  if (!status) status = sph_case_compare_check(c, sim, stage, error);
+  if (!status) printf("%-12s right, %d warning%s\n", "the case", n, n == 1 ? "" : "s");
+  return status;
+}
+
 int sph_prog_check(const prog_options *o)
 {
+  char stage[STAGE] = "";
   sph_error error = {0};
   sph_case *c = sph_case_read(o->what, o->sets, o->set, &error);
   int right = c && !sph_case_check_parts(c, &error);
   sph_sim *sim = right ? sph_case_build(c, o->threads, &error) : NULL;
-  int status = sim ? sph_sim_evaluate(sim) : error.status;
-  if (!status) {
-    printf("%s\n\n", sph_case_title(c));
-    print_groups(sim);
-    int n = warnings(sim);
-    status = estimate(sim, sph_case_end(c));
-    if (!status) printf("%-12s right, %d warning%s\n", "the case", n, n == 1 ? "" : "s");
-  }
+  int status = sim ? sph_sim_evaluate(sim) : error.status, told = 0;
+  if (!status) told = status = make_stage(stage);
+  if (!status) status = try_out(o, c, sim, stage, &error);
+  remove_stage(stage);
   if (error.status)
     sph_prog_error(PROG_FAILED, "%s", error.text);
-  else if (status)
+  else if (status && !told && status != PROG_FAILED)
     sph_prog_error(PROG_FAILED, "%s: %s", o->what, sph_sim_error(sim));
   sph_sim_free(sim);
   sph_case_free(c);

@@ -32,12 +32,18 @@ SPH_API sph_sim *sph_case_build(const sph_case *c, int threads, sph_error *error
 /* Do the parts of terms fit the integrator that the case names?  Else a run of that simulation
  * fails; here the place in the file is told.  Another integrator may be set for it. */
 SPH_API int sph_case_check_parts(const sph_case *c, sph_error *error);
+/* Keys that do nothing without their partner, as heat_flux without conduction: warning k = 0, 1,
+ * ... written to text[size]; 0: there is none. */
+SPH_API int sph_case_warning(const sph_case *c, int k, char *text, size_t size);
 /* The integrator that the case names, as its simulation has it; its strings live as long as c. */
 SPH_API void sph_case_build_integrator(const sph_case *c, sph_integrator_def *def);
 /* The outputs of the case, into a directory; command: the command line, kept in the snapshots;
  * NULL: none. */
 SPH_API void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directory,
                                     const char *command);
+
+/* Those of them that are small: all but snapshots. */
+SPH_API void sph_case_build_series(const sph_case *c, sph_sim *sim, const char *directory);
 
 /* Checkpoints of the case (sphode/checkpoint.h) into a directory, which hold its text; behind its
  * outputs. */
@@ -49,6 +55,11 @@ SPH_API void sph_case_build_checkpoints(const sph_case *c, sph_sim *sim, const c
 SPH_API int sph_case_compare(const sph_case *c, sph_sim *sim, const char *directory,
                              sph_comparison **list, int *n, sph_error *error);
 SPH_API void sph_case_compare_free(sph_comparison *list, int n);
+/* Before the run: are the tables of all comparisons there, are their quantities fields of the
+ * fluids or columns of directory/series.csv (NULL: not looked at)?  A status, the reason in error.
+ */
+SPH_API int sph_case_compare_check(const sph_case *c, sph_sim *sim, const char *directory,
+                                   sph_error *error);
 /* Draws comparison k = 0, 1, ..., of a time series with a table or of particles with a solution in
  * space, as directory/compare_k.png, whose path is written to png[size].  SPH_ERR_ARGUMENT: not
  * such a comparison. */

@@ -178,6 +178,11 @@ SPH_API int sph_summary_text(char *buffer, size_t size, struct sph_sim *sim,
  * Drawn by gnuplot (SPH_ERR_UNBUILT, with what to install, where there is none).  Beside x.png stay
  * x.gp and x.dat, the script and its data: edit the script, run `gnuplot x.gp`. */
 
+/* The particles of a simulation, each group in a colour: what a case is, before it runs.  3D: a
+ * slice through the middle of the thinner horizontal direction.  title: NULL: none. */
+SPH_API int sph_plot_geometry(const struct sph_sim *sim, const char *title, const char *png,
+                              sph_error *error);
+
 /* Particles coloured by a field ("pressure", "velocity": its magnitude, "velocity_x", "density",
  * "energy", ...; NULL: "velocity"), walls grey, axes equal.  path: a snapshot, or a directory (its
  * last one).  3D: a slice through the middle of the fluid's thinner horizontal direction.

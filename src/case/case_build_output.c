@@ -161,10 +161,20 @@ void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directo
                       .compression = compression > 0 ? compression : -1,
                       .command = command};
   sph_sim_add_output(sim, sph_output_hdf5_def(&def));
+  sph_case_build_series(c, sim, directory);
+}
+
+void sph_case_build_series(const sph_case *c, sph_sim *sim, const char *directory)
+{
+  if (!c) {
+    sph_sim_fail(sim, SPH_ERR_ARGUMENT, "outputs of no case (NULL)");
+    return;
+  }
+  const sph_case_node *output = child_of(c->root, "output");
   const builder b = {.c = c,
                      .sim = sim,
                      .directory = directory,
-                     .interval = get_number(output, "series", end / 500)};
+                     .interval = get_number(output, "series", sph_case_end(c) / 500)};
   add_series(&b, output);
   for (const sph_case_node *node = first_of(output, "probes"); node; node = node->next)
     add_probe(&b, node);

@@ -42,6 +42,57 @@ ok $? "an unknown template names the known ones"
 run 0 "$sphode" run gas.yml -q && [[ -s gas/summary.json ]]
 ok $? "one runs as it is, within its bar"
 
+# ---- check
+
+fails() { # NAME, what the message says, --set
+  run 1 "$sphode" check tank2.yml --set "$3" && grep -q "^sphode: .*$2" err
+  ok $? "$1"
+}
+"$sphode" new tank -o tank2.yml -q
+fails "a probe of a field that is none" "probe a: water has no field .presure.; did you mean 'pressure'" "output.probes={a: {at: [0, 0], fields: presure}}"
+fails "a probe elsewhere" "probe a: its places lie" "output.probes={a: {at: [100, 0]}}"
+fails "a monitor of no fluid" "monitor a: no fluid group" "output.monitors={a: {type: height, group: nobody}}"
+fails "a comparison of no column" "'frnt' is no column of series.csv" "compare=[{name: a, quantity: frnt, reference: {value: 1}}]"
+fails "a comparison without its table" "cannot read no.csv" "compare=[{name: a, quantity: front, reference: {csv: {file: no.csv}}}]"
+fails "a comparison of no field" "water has no field 'velocty'; did you mean 'velocity'" \
+  "compare=[{name: a, quantity: velocty, reference: {column: {surface: 1, gravity: 1}}}]"
+printf 'time,front\n0,0.6\n0.1,0.7\n' >front.csv
+run 0 "$sphode" check tank2.yml --set "compare=[{name: a, quantity: front, reference: {csv: {file: front.csv}}}]" && grep -q "right, 0 warnings" out
+ok $? "one that is right"
+run 1 "$sphode" check tank2.yml --set "compare=[{name: a, quantity: front, reference: {csv: {file: front.csv, y: back}}}]" && grep -q "back" err
+ok $? "a table without its column"
+
+warns() { # what the warning says, --set...
+  local says=$1 sets=()
+  shift
+  for s; do sets+=(--set "$s"); done
+  run 0 "$sphode" check tank2.yml "${sets[@]}" && grep -q "^warning  *.*$says" out && return
+  sed 's/^/# /' out
+  good=1
+}
+good=0
+warns "alpha_min: does nothing without a switch" terms.viscosity-artificial.alpha_min=0.01
+warns "viscosity: does nothing without the term viscosity-laminar" "groups.water.viscosity=1 mPa s"
+warns "conductivity: does nothing without the term conduction" "groups.water.conductivity=1"
+warns "heat_flux: does nothing without the term conduction" "groups.tank.boundary={model: mirror, heat_flux: 1 W/m^2}"
+warns "temperature: does nothing without the term conduction" "groups.tank.boundary={temperature: 300 K}"
+warns "linear: does nothing without an imex: method" integrator.linear=klu
+warns "tolerance: does nothing without error control" integrator.tolerance=0.1 integrator.error_control=false
+warns "cfl: does nothing without steps that change" integrator.cfl=0.5 "integrator.dt_fixed=0.1 ms"
+warns "seed: does nothing without jitter" groups.water.seed=2
+warns "lattice: does nothing without a shape that is filled" groups.tank.lattice=hexagonal
+warns "threshold: does nothing without norm: arrival" "compare=[{name: a, quantity: front, threshold: 1, reference: {value: 1}}]"
+ok $good "keys that do nothing without their partner"
+if command -v gnuplot >/dev/null; then
+  run 0 "$sphode" check tank2.yml --picture a.png && [[ $(head -c 4 a.png | tail -c 3) == PNG ]] && grep -q "groups\|water" a.gp &&
+    [[ $(grep -c '^$' a.dat) == 4 ]]
+  ok $? "a picture: a block for each group"
+else
+  ok 0 "a picture # SKIP no gnuplot"
+fi
+[[ -z $(ls -d "${TMPDIR:-/tmp}"/sphode-check-* 2>/dev/null) ]]
+ok $? "nothing is left behind"
+
 # ---- the schema
 
 run 0 "$sphode" schema && cmp out "$SRCDIR/docs/sphode.schema.json"

@@ -1,0 +1,120 @@
+/* Keys that do nothing without their partner: right, but hardly what was meant. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "case_schema.h"
+#include "sphode/case.h"
+
+#define child_of sph_case_reader_find
+#define get_text sph_case_reader_text
+#define get_number sph_case_reader_number
+
+/* Warning number `wanted` of those that are found. */
+typedef struct finder {
+  const sph_case *c;
+  int wanted, found;
+  char *text;
+  size_t size;
+} finder;
+
+static void found(finder *f, const sph_case_node *node, const char *format, ...) SPH_PRINTF(3, 4);
+static void found(finder *f, const sph_case_node *node, const char *format, ...)
+{
+  char what[300];
+  va_list arguments;
+  if (f->found++ != f->wanted) return;
+  va_start(arguments, format);
+  vsnprintf(what, sizeof what, format, arguments);
+  va_end(arguments);
+  if (node->key_line > 0)
+    snprintf(f->text, f->size, "%s:%d: %s: %s", node->file ? node->file : f->c->path,
+             node->key_line, node->key, what);
+  else
+    snprintf(f->text, f->size, "%s: %s", node->key, what);
+}
+
+/* A key that the user gave, not its default. */
+static const sph_case_node *given(const sph_case_node *map, const char *key)
+{
+  const sph_case_node *node = child_of(map, key);
+  return node && !(node->origin && !strcmp(node->origin, "default")) ? node : NULL;
+}
+
+static void without(finder *f, const sph_case_node *map, const char *key, int partner,
+                    const char *what)
+{
+  const sph_case_node *node = given(map, key);
+  if (node && !partner) found(f, node, "does nothing without %s", what);
+}
+
+static void look_at_terms(finder *f, const sph_case_node *terms)
+{
+  for (const sph_case_node *term = terms->first; term; term = term->next) {
+    const char *which = get_text(term, "switch", "none");
+    without(f, term, "alpha_min", strstr(which, "morris") || strstr(which, "cullen"),
+            "a switch that varies alpha (morris-monaghan, cullen-dehnen)");
+    without(f, term, "exponent", !strcmp(get_text(term, "form", "phi"), "phi"), "form: phi");
+    without(f, term, "crowding", !strcmp(get_text(term, "form", "delta-plus"), "delta-plus"),
+            "form: delta-plus");
+  }
+}
+
+static void look_at_group(finder *f, const sph_case_node *group, const sph_case_node *terms)
+{
+  const int conduction = child_of(terms, "conduction") != NULL;
+  const int laminar = child_of(terms, "viscosity-laminar") != NULL;
+  const int viscous =
+      laminar || child_of(terms, "viscosity-artificial") || child_of(terms, "viscosity-signal");
+  const sph_case_node *boundary = child_of(group, "boundary");
+  without(f, group, "viscosity", laminar, "the term viscosity-laminar");
+  without(f, group, "conductivity", conduction, "the term conduction");
+  without(f, group, "seed", get_number(group, "jitter", 0) > 0, "jitter");
+  without(f, boundary, "temperature", conduction, "the term conduction");
+  without(f, boundary, "heat_flux", conduction, "the term conduction");
+  without(f, boundary, "no_slip", viscous, "a viscosity among the terms");
+  const char *model = get_text(boundary, "model", "adami");
+  without(f, boundary, "heat_flux", !strcmp(model, "mirror") || !conduction, "model: mirror");
+  int filled = 0;
+  for (const sph_case_node *shape = child_of(group, "shapes")->first; shape; shape = shape->next)
+    filled |= strcmp(shape->first->key, "file") && strcmp(shape->first->key, "layers") &&
+              strcmp(shape->first->key, "plane");
+  without(f, group, "lattice", filled, "a shape that is filled; file and layers have their own");
+}
+
+static void look_at_integrator(finder *f, const sph_case_node *map)
+{
+  const char *method = get_text(map, "method", "");
+  const int imex = !strncmp(method, "imex:", 5), erk = !strncmp(method, "erk:", 4);
+  const int fixed = child_of(map, "dt_fixed") != NULL;
+  const int control = get_number(map, "error_control", 1) != 0 && !fixed;
+  without(f, map, "linear", imex, "an imex: method");
+  without(f, map, "stage_tolerance", imex, "an imex: method");
+  without(f, map, "relax", erk || imex, "an erk: or imex: method");
+  without(f, map, "tolerance", control, "error control");
+  without(f, map, "controller", control, "error control");
+  without(f, map, "cfl", !fixed, "steps that change: dt_fixed is given");
+  without(f, map, "dt_max", !fixed, "steps that change: dt_fixed is given");
+  without(f, map, "dt_min", !fixed, "steps that change: dt_fixed is given");
+}
+
+static void look_at_comparisons(finder *f, const sph_case_node *list)
+{
+  for (const sph_case_node *one = list ? list->first : NULL; one; one = one->next) {
+    const char *norm = get_text(one, "norm", "rms");
+    without(f, one, "threshold", !strcmp(norm, "arrival"), "norm: arrival");
+  }
+}
+
+int sph_case_warning(const sph_case *c, int k, char *text, size_t size)
+{
+  finder f = {.c = c, .wanted = k, .text = text, .size = size};
+  if (!c || k < 0) return 0;
+  const sph_case_node *terms = child_of(c->root, "terms");
+  look_at_terms(&f, terms);
+  for (const sph_case_node *g = child_of(c->root, "groups")->first; g; g = g->next)
+    look_at_group(&f, g, terms);
+  look_at_integrator(&f, child_of(c->root, "integrator"));
+  look_at_comparisons(&f, child_of(c->root, "compare"));
+  return f.found > k;
+}
