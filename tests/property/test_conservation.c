@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "balance.h"
+#include "quick.h"
 
 typedef struct terms {
   enum oracle_row row;
@@ -54,7 +55,7 @@ static void momentum_with(scene *s, const terms *t)
 static void momentum(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene_def def = scene_number(k, 1, 1);
     scene s;
     scene_make(&s, &def);
@@ -68,7 +69,7 @@ static void momentum(void **state)
 static void angular_momentum(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene_def def = scene_number(k, 1, 0);
     if (def.dim == 1) continue;
     scene s;
@@ -89,7 +90,7 @@ static void angular_momentum(void **state)
 static void energy_of_gases(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene_def def = scene_number(k, 1, k / 3 % 2);
     scene s;
     scene_make(&s, &def);
@@ -111,7 +112,7 @@ static void energy_of_gases(void **state)
 static void energy_of_liquids(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene_def def = scene_number(k, 0, k / 3 % 2);
     scene s;
     scene_make(&s, &def);
@@ -134,7 +135,7 @@ static void energy_of_liquids(void **state)
 static void viscous_heat(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene_def def = scene_number(k, 1, 1);
     scene s;
     scene_make(&s, &def);
@@ -160,7 +161,7 @@ static void viscous_heat(void **state)
 static void conduction(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene_def def = scene_number(k, 1, 1);
     scene s;
     scene_make(&s, &def);
@@ -187,7 +188,7 @@ static void conduction(void **state)
 static void entropy(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene_def def = scene_number(k, 1, k / 3 % 2);
     scene s;
     scene_make(&s, &def);
@@ -259,7 +260,7 @@ static real summation(const oracle *o, long i, real time)
 static void continuity_is_exact(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene_def def = scene_number(k, 0, 1);
     scene s;
     scene_make(&s, &def);
@@ -280,7 +281,7 @@ static void continuity_is_exact(void **state)
 static void density_diffusion(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene_def def = scene_number(k, 0, k / 3 % 2);
     scene s;
     scene_make(&s, &def);
@@ -345,7 +346,7 @@ static void linear_density(void **state)
 static void uniform_state(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene_def def = scene_number(k, k / 3 % 2, 1);
     scene s;
     scene_make(&s, &def);
@@ -377,7 +378,7 @@ static void uniform_state(void **state)
 static void galilean(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene_def def = scene_number(k, 1, k / 3 % 2);
     scene s;
     scene_make(&s, &def);

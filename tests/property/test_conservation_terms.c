@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "balance.h"
+#include "quick.h"
 
 /* ---- sets of terms ---- */
 
@@ -65,7 +66,7 @@ static scene_rates rates_with(scene *s, choose *row, choose *viscosity, enum ora
 static void momentum(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene s;
     make(&s, k, 1, 1);
     for (int c = 0; c < ROWS * VISCOUS; c++) {
@@ -99,7 +100,7 @@ static void angular_momentum(void **state)
 {
   (void)state;
   double worst = 0, least = 1;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene s;
     make(&s, k, 1, 0);
     for (int c = 0; s.o.dim > 1 && c < (ROWS + 1) * VISCOUS; c++) {
@@ -123,7 +124,7 @@ static void angular_momentum(void **state)
 static void energy_of_gases(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene s;
     make(&s, k, 1, k / 3 % 2);
     for (int c = 0; c < ROWS * VISCOUS; c++)
@@ -149,7 +150,7 @@ static void energy_of_gases(void **state)
 static void energy_of_liquids(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene s;
     make(&s, k, 0, k / 3 % 2);
     scene_rates r = rates_with(&s, row_phi, none, ORACLE_DEFAULT);
@@ -169,7 +170,7 @@ static void energy_of_liquids(void **state)
 static void viscous_heat(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++)
+  for (int k = 0; k < SCENES; k += quick_stride())
     for (int c = SIGNAL; c < VISCOUS; c++) {
       scene s;
       make(&s, k, k / 3 % 2, 1);
@@ -195,7 +196,7 @@ static void viscous_heat(void **state)
 static void entropy(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene s;
     make(&s, k, 1, k / 3 % 2);
     for (int c = 0; c < ROWS * VISCOUS; c++) {
@@ -219,7 +220,7 @@ static void entropy(void **state)
 static void conduction(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene s;
     make(&s, k, k / 3 % 2, 1);
     s.o.conduction = 1;
@@ -268,7 +269,7 @@ static void summed_density(void **state)
   (void)state;
   const double step = 1e-6;
   double worst = 0, worst_energy = 0;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene s;
     if (k % ORACLE_KERNELS == ORACLE_GAUSSIAN) continue; /* cut off: its sums jump */
     make(&s, k, 0, k / 3 % 2);
@@ -300,7 +301,7 @@ static void summed_density(void **state)
 static void mass_centre(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene s;
     make(&s, k, 0, k / 3 % 2);
     s.o.epsilon = 0.5;
@@ -345,7 +346,7 @@ static double diffused(scene *s, enum oracle_delta model, scene_rates *r)
 static void fourtakas(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene s;
     scene_rates r, molteni;
     scene_def def = scene_number(k, 0, k / 3 % 2);
@@ -422,7 +423,7 @@ static void rigid_rotation(void **state)
 {
   (void)state;
   double worst = 0, least = 1;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene s;
     make(&s, k, 1, 0);
     if (s.o.dim == 1) {
@@ -459,7 +460,7 @@ static void rigid_rotation(void **state)
 static void galilean(void **state)
 {
   (void)state;
-  for (int k = 0; k < SCENES; k++) {
+  for (int k = 0; k < SCENES; k += quick_stride()) {
     scene s;
     int thermal = k % 5 > 0;
     enum oracle_energy energy = (enum oracle_energy)(k % 5);

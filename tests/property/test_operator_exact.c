@@ -13,6 +13,7 @@
 
 #include "cloud.h"
 #include "near.h"
+#include "quick.h"
 
 enum { ARRAYS = 9 };
 
@@ -62,9 +63,9 @@ static void scene_free(scene *s)
   for (int o = 0; o < ARRAYS; o++) free(s->out[o]);
 }
 
-#define EACH_SCENE(s)                                      \
-  for (int dim = 1; dim <= 3; dim++)                       \
-    for (int kernel = 0; sph_kernel_get(kernel); kernel++) \
+#define EACH_SCENE(s)                                                      \
+  for (int dim = 1; dim <= 3; dim++)                                       \
+    for (int kernel = 0; sph_kernel_get(kernel); kernel += quick_stride()) \
       for (scene s = scene_make(dim, kernel, 0); s.op; scene_free(&s), s.op = NULL)
 
 /* Slope d of the quadratic field at point i. */

@@ -8,6 +8,7 @@ cd "$stage" || exit 99
 export OMP_WAIT_POLICY=passive
 every=20 # steps between checkpoints
 kills=20
+[[ -z $SPHODE_TEST_QUICK ]] || kills=4 # under sanitizers
 [[ -z $SPHODE_TEST_LONG ]] || kills=200
 RANDOM=${SPHODE_TEST_SEED:-$$}
 sed '/^compare:/,$d' "$SRCDIR/cases/dam-break-2d.yml" >dam.yml

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 #include <math.h>
 
+#include "quick.h"
 #include "scene.h"
 #include "sim_tangent.h"
 #include "sim_transposed.h"
@@ -178,7 +179,7 @@ static void states(void **state)
   (void)state;
   worst = 0;
   for (int dim = 1; dim <= 3; dim++)
-    for (int kernel = 0; kernel < ORACLE_KERNELS; kernel++)
+    for (int kernel = 0; kernel < ORACLE_KERNELS; kernel += quick_stride())
       for (unsigned long k = 0; k < (dim == 3 ? 2 : 4); k++) {
         unsigned long seed = 100 * (unsigned long)(10 * dim + kernel) + k;
         scene s;
@@ -200,7 +201,7 @@ static void parameters(void **state)
   int tried = 0;
   worst = 0;
   for (int dim = 1; dim <= 3; dim++)
-    for (int kernel = 0; kernel < ORACLE_KERNELS; kernel += dim == 3 ? 3 : 1)
+    for (int kernel = 0; kernel < ORACLE_KERNELS; kernel += dim == 3 ? 3 : quick_stride())
       for (unsigned long k = 0; k < (dim == 3 ? 1 : 2); k++) {
         unsigned long seed = 100 * (unsigned long)(10 * dim + kernel) + 50 + k;
         scene s;
@@ -255,7 +256,8 @@ static void transposed(void **state)
   (void)state;
   worst = 0;
   for (int dim = 1; dim <= 3; dim++)
-    for (int kernel = dim == 3 ? 1 : 0; kernel < ORACLE_KERNELS; kernel += dim == 3 ? 3 : 1)
+    for (int kernel = dim == 3 ? 1 : 0; kernel < ORACLE_KERNELS;
+         kernel += dim == 3 ? 3 : quick_stride())
       for (unsigned long k = 0; k < (dim == 3 ? 1 : 4); k++) {
         unsigned long seed = 100 * (unsigned long)(10 * dim + kernel) + 70 + k;
         scene s;
