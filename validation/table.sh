@@ -106,15 +106,21 @@ curves momentum "Momentum along the tank" 'column("time [s]")' 'column("momentum
 runs "Re = 200, eight periods: more of the damping is numerical" parameters.dx "H/20" --set parameters.q=0.005 --set "run.end=8*T"
 
 page oscillating-drop oscillating-drop-2d exact-solutions
-because 'semi-axis along y' "this axis alone; both together, with sound 1.4 times as fast, meet it: the test below"
 runs "Artificial viscosity, alpha = 0.02" parameters.dx "R/20"
 judge R/20
-runs "No viscosity" parameters.dx "R/20 R/40" --set terms.viscosity-artificial.alpha=0 --set compare.0.bar=2e-3 --set compare.1.bar=2e-3
+runs "No viscosity" parameters.dx "R/10 R/20 R/40" --set terms.viscosity-artificial.alpha=0 --set compare.0.bar=2e-3 --set compare.1.bar=2e-3
 judge R/20
-tests accuracy/test_drop "both semi-axes, no viscosity" "exact solution" "≤ 2e-3" \
-  'alpha = 0: error of the semi-axes \([0-9.]*\)' "R/dx = 20"
 curves axes "Semi-axis along x, no viscosity" 'column("time [s]")' 'column("a [m]")' 'set xlabel "time [s]"' 'set ylabel "a [m]"'
 picture R/20 frames "pressure"
+runs "No viscosity, gradients not corrected" parameters.dx "R/10 R/20 R/40" --set terms.viscosity-artificial.alpha=0 \
+  --set terms.continuity.correction=none --set terms.pressure.correction=none
+say "At R/20 there is no order to see: the particles of a square lattice whose centres are in the disc are a disc with semi-axes 1.0025 R there, 0.9993 R with" \
+  "R/40. What is lost of the energy makes the drop too small, so that the first start is a help of 0.0025, and the second a harm of 0.0007. The test divides" \
+  "by the semi-axes of the start. Faster sound (20 in place of 14.1) changes the errors without viscosity by 2e-4 at most; those of artificial viscosity grow with it."
+tests accuracy/test_drop "both semi-axes of their start, no viscosity, sound 20, gradients not corrected" "exact solution" "≤ 2e-3" \
+  'alpha = 0: error of the semi-axes \([0-9.]*\)' "R/dx = 20"
+tests accuracy/test_drop "the same, alpha = 0.02, corrected gradients" "exact solution" "≤ 7e-3" \
+  'alpha = 0.02, corrected: error of the semi-axes \([0-9.]*\)' "R/dx = 20"
 
 page elliptical-patch elliptical-patch-2d exact-solutions
 runs "h/dx = 2.5" parameters.dx "R/20 R/40"
