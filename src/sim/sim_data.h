@@ -56,8 +56,9 @@ typedef struct sph_sorted {
   double *sum[SPH_PAIR_SUMS]; /* [room]; NULL for those that no loop makes */
   double *phi;                /* of the row phi, not sorted, [room]; NULL: another row */
   double *built[3];           /* positions at the last list build, not sorted, [capacity] */
-  double *shifted;            /* records of shift_pair.h, as many; NULL: nothing shifts */
-  double *shock; /* records of Cullen & Dehnen's second pass (switch_pair.h), or NULL */
+  int *place; /* of a fluid that mirrors show: sorted place of each particle, [room]; else NULL */
+  double *shifted; /* records of shift_pair.h, as many; NULL: nothing shifts */
+  double *shock;   /* records of Cullen & Dehnen's second pass (switch_pair.h), or NULL */
 } sph_sorted;
 
 typedef struct sph_outlet {

@@ -56,6 +56,7 @@ static int build(sph_sim *sim)
     sph_neighbors_sort(sim->neighbors, g, sim->group[g]->n,
                        (const double *const[]){x[0], x[1], x[2]}, &error);
   }
+  if (!error.status) sph_sim_mirror_find(sim);
   for (int g = 0; !error.status && g < sim->groups; g++)
     for (int s = 0; !error.status && s < sim->groups; s++)
       if (sph_sim_interaction_listed(sim, sim->group[g], sim->group[s]))

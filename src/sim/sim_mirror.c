@@ -308,6 +308,15 @@ int sph_sim_mirror_make(sph_sim *sim)
   return status;
 }
 
+void sph_sim_mirror_find(sph_sim *sim)
+{
+  for (int g = 0; g < sim->groups; g++) {
+    const int *order = sph_neighbors_order(sim->neighbors, g);
+    for (long s = 0; sim->sorted[g].place && s < sim->group[g]->n; s++)
+      sim->sorted[g].place[order[s]] = (int)s;
+  }
+}
+
 /* ---- in each evaluation ---- */
 
 static mirror stand(const sph_evaluation *e, const sph_group *group, int k)
@@ -351,6 +360,27 @@ static void reflect(const double n[3], const double about[3], double a[3])
   double along = 0;
   for (int d = 0; d < 3; d++) along += (a[d] - about[d]) * n[d];
   for (int d = 0; d < 3; d++) a[d] -= 2 * along * n[d];
+}
+
+int sph_sim_mirror_slips(const sph_group *group)
+{
+  return is_mirror(group) && !group->boundary.no_slip;
+}
+
+long sph_sim_mirror_parent(const sph_sim *sim, const sph_ghost *ghost)
+{
+  return sim->sorted[ghost->group].place[ghost->parent];
+}
+
+void sph_sim_mirror_turn(const sph_sim *sim, const sph_ghost *ghost, double *a)
+{
+  double turned[3] = {0};
+  const double zero[3] = {0};
+  for (int d = 0; d < sim->dim; d++) turned[d] = a[d];
+  for (int k = 0; k < ghost->planes; k++)
+    reflect(sim->group[ghost->in[k].group]->boundary.plane[ghost->in[k].plane].normal, zero,
+            turned);
+  for (int d = 0; d < sim->dim; d++) a[d] = turned[d];
 }
 
 static void place(const sph_evaluation *e, const mirrors *all, const sph_group *group, long i)

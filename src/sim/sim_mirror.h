@@ -11,6 +11,14 @@ int sph_sim_mirror_check(sph_sim *sim);
 int sph_sim_mirror_one_liquid(sph_sim *sim);
 /* At a list build: the ghosts of the positions in `built`, theirs too; with room for them. */
 int sph_sim_mirror_make(sph_sim *sim);
+/* Behind the sort: where the particles that have images stand. */
+void sph_sim_mirror_find(sph_sim *sim);
+/* A mirror along which fluids slip, so that behind it is their own reflection. */
+int sph_sim_mirror_slips(const sph_group *group);
+/* Sorted place of the particle that it is an image of. */
+long sph_sim_mirror_parent(const sph_sim *sim, const sph_ghost *ghost);
+/* a, a direction of the particle, as its ghost has it. */
+void sph_sim_mirror_turn(const sph_sim *sim, const sph_ghost *ghost, double *a);
 /* Has a mirror moved so far since the build that fluid without an image may be near it? */
 int sph_sim_mirror_moved(const sph_sim *sim, double t);
 /* Where the mirrors stand: part of what lists depend on. */

@@ -348,6 +348,10 @@ int sph_sim_prepare_room(sph_sim *sim, int g)
     status = sph_memory_grow((void **)&sorted->shifted, 0,
                              room * (size_t)shift_slots(sim->dim) + SPH_PAIR_SLOTS, sizeof(double),
                              "records of what shifts", &sim->error);
+  if (!status && sorted->shock)
+    status = sph_memory_grow((void **)&sorted->shock, 0,
+                             room * (size_t)switch_slots(sim->dim) + SPH_PAIR_SLOTS, sizeof(double),
+                             "records of a switch", &sim->error);
   if (!status) sorted->room = (long)room;
   return status;
 }
@@ -356,8 +360,11 @@ static int make_sorted(sph_sim *sim, int g)
 {
   sph_sorted *sorted = &sim->sorted[g];
   unsigned terms = sim->loop_terms;
-  for (int k = 0; k < sim->groups; k++)
+  int mirrors = 0;
+  for (int k = 0; k < sim->groups; k++) {
     if (sim->group[k]->wall) terms |= SPH_WALL;
+    mirrors |= sim->group[k]->wall && sim->group[k]->model == SPH_MODEL_MIRROR;
+  }
   /* Tiles read all slots up to the scalars; the others only those of their terms. */
   sorted->stride =
       fluid_slots(sim->dim, terms, sim->part[SPH_WHOLE].tiles ? sim->terms.scalars : 0);
@@ -371,10 +378,13 @@ static int make_sorted(sph_sim *sim, int g)
   if (sim->loop_terms & SPH_SHIFTS)
     sorted->shifted = SPH_NEW(double, sorted->room *shift_slots(sim->dim) + SPH_PAIR_SLOTS,
                               "records of what shifts", &sim->error);
-  if (!sim->group[g]->wall && (terms & SPH_CULLEN_DEHNEN))
+  const int mirror = sim->group[g]->model == SPH_MODEL_MIRROR && sim->group[g]->wall;
+  if ((!sim->group[g]->wall || mirror) && (terms & SPH_CULLEN_DEHNEN))
     sorted->shock = SPH_NEW(double, sorted->room *switch_slots(sim->dim) + SPH_PAIR_SLOTS,
                             "records of a switch", &sim->error);
   if (terms & SPH_FORM_PHI) sorted->phi = SPH_NEW(double, sorted->room, "phi", &sim->error);
+  if (!sim->group[g]->wall && mirrors)
+    sorted->place = SPH_NEW(int, sorted->room, "sorted places", &sim->error);
   return sim->error.status;
 }
 
@@ -543,6 +553,7 @@ void sph_sim_prepare_undo(sph_sim *sim)
     sph_memory_free(sim->sorted[g].phi);
     sph_memory_free(sim->sorted[g].shifted);
     sph_memory_free(sim->sorted[g].shock);
+    sph_memory_free(sim->sorted[g].place);
     for (int s = 0; s < SPH_PAIR_SUMS; s++) sph_memory_free(sim->sorted[g].sum[s]);
     for (int d = 0; d < 3; d++) sph_memory_free(sim->sorted[g].built[d]);
   }

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "shift_loops.h"
+#include "sim_mirror.h"
 #include "sim_parts.h"
 #include "sim_rhs.h"
 
@@ -59,7 +60,7 @@ static void pass(sph_sim *sim, const shift_constants *k, int number, int sums, i
   sph_sim_pairs_clear(sim, g, sums);
   for (int s = 0; s < sim->groups; s++) {
     shift_constants of = *k;
-    of.wall = sim->group[s]->wall;
+    of.wall = sim->group[s]->wall && !sph_sim_mirror_slips(sim->group[s]);
     if (sph_sim_interaction_same_species(sim->group[g], sim->group[s]))
       sph_sim_pairs_loop_records(sim, loop, g, s, sim->sorted[g].shifted, sim->sorted[s].shifted,
                                  shift_slots(sim->dim), &of);
@@ -89,6 +90,28 @@ static void finish_tail(const sph_sim *sim, int g, long n)
   for (long s = n; n > 0 && s < sorted->room; s++)
     memcpy(sorted->shifted + (size_t)s * slots, sorted->shifted + (size_t)(n - 1) * slots,
            slots * sizeof(double));
+}
+
+/* Images have dv, normal and flag of their particles, reflected. */
+static void show_images(const sph_evaluation *e)
+{
+  const sph_sim *sim = e->sim;
+  const int dim = sim->dim, slots = shift_slots(dim);
+  for (int g = 0; g < sim->groups; g++) {
+    const sph_group *group = sim->group[g];
+    if (!sph_sim_mirror_slips(group)) continue;
+    const int *order = sph_neighbors_order(sim->neighbors, g);
+    for (long s = 0; s < e->view[g].n; s++) {
+      const sph_ghost *ghost = &group->ghost[order[s]];
+      const double *from =
+          sim->sorted[ghost->group].shifted + sph_sim_mirror_parent(sim, ghost) * slots;
+      double *to = sim->sorted[g].shifted + s * slots;
+      for (int k = shift_drift(dim); k < slots; k++) to[k] = from[k];
+      sph_sim_mirror_turn(sim, ghost, to + shift_drift(dim));
+      sph_sim_mirror_turn(sim, ghost, to + shift_normal(dim));
+    }
+    finish_tail(sim, g, e->view[g].n);
+  }
 }
 
 /* ---- where a free surface is */
@@ -241,9 +264,13 @@ int sph_sim_shift_add(sph_evaluation *e)
   for (int g = 0; g < sim->groups; g++)
     if (fluid(sim->group[g])) find_drifts(e, &k, g);
   if (k.surface) find_surface(e, &k);
-  if (keeps_surface(sim)) keep_surface(e, &k);
+  if (keeps_surface(sim)) {
+    show_images(e);
+    keep_surface(e, &k);
+  }
   for (int g = 0; g < sim->groups; g++)
     if (fluid(sim->group[g])) finish_tail(sim, g, e->view[g].n);
+  show_images(e);
   for (int g = 0; g < sim->groups; g++) {
     if (!fluid(sim->group[g])) continue;
     add_drift(e, g);

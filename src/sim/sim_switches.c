@@ -3,11 +3,13 @@
  * the gradient of the accelerations, which are then known, gives Cullen & Dehnen's, on which
  * nothing else of this evaluation depends.
  *
- * Only fluid particles are seen: corrected gradients are exact for linear fields at walls and
- * surfaces too, and a wall along which a fluid slips is no shear. */
+ * Only fluid particles are seen, and images of them behind mirrors along which they slip: corrected
+ * gradients are exact for linear fields at walls and surfaces too, and a wall along which a fluid
+ * slips is no shear. */
 #include <math.h>
 #include <string.h>
 
+#include "sim_mirror.h"
 #include "sim_rhs.h"
 #include "switch_loops.h"
 #include "term_switch.h"
@@ -34,7 +36,9 @@ static void sum(sph_sim *sim, int g, int pass)
   sph_pair_function *loop = sph_switch_loop(sim->isa, sim->kernel_number, sim->dim, pass);
   sph_sim_pairs_clear(sim, g, switch_sum_more(sim->dim) + 1 + shock);
   for (int s = 0; s < sim->groups; s++) {
-    if (sim->group[s]->wall || !sph_sim_interaction_same_species(sim->group[g], sim->group[s]))
+    const sph_group *source = sim->group[s];
+    if ((source->wall && !sph_sim_mirror_slips(source)) ||
+        !sph_sim_interaction_same_species(sim->group[g], source))
       continue;
     if (shock)
       sph_sim_pairs_loop_records(sim, loop, g, s, sim->sorted[g].shock, sim->sorted[s].shock, slots,
@@ -148,6 +152,29 @@ static void take_accelerations(const sph_evaluation *e, int g)
     memcpy(record + s * stride, record + (n - 1) * stride, (size_t)stride * sizeof *record);
 }
 
+/* Images have acceleration and sign of their particles, reflected. */
+static void show_images(const sph_evaluation *e, int g)
+{
+  const sph_sim *sim = e->sim;
+  const sph_group *group = sim->group[g];
+  const sph_sorted *sorted = &sim->sorted[g];
+  const int *order = sph_neighbors_order(sim->neighbors, g), dim = sim->dim;
+  const int slots = switch_slots(dim);
+  const long n = e->view[g].n;
+  for (long s = 0; s < n; s++) {
+    const sph_ghost *ghost = &group->ghost[order[s]];
+    const double *record = sorted->record + s * sorted->stride;
+    double *to = sorted->shock + s * slots;
+    memcpy(to, sim->sorted[ghost->group].shock + sph_sim_mirror_parent(sim, ghost) * slots,
+           (size_t)slots * sizeof *to);
+    for (int d = 0; d < dim; d++) to[d] = record[d];
+    sph_sim_mirror_turn(sim, ghost, to + switch_slot_a(dim));
+  }
+  for (long s = n; n > 0 && s < sorted->room; s++)
+    memcpy(sorted->shock + s * slots, sorted->shock + (n - 1) * slots,
+           (size_t)slots * sizeof *sorted->shock);
+}
+
 /* Returns the rate at which alpha is drawn to where it rises to, else 0 [1/s]. */
 static double rise_or_fall(const sph_evaluation *e, int g, long s, long i)
 {
@@ -177,6 +204,8 @@ int sph_sim_switches_rates(sph_evaluation *e)
   if (!e->part->switches || !(sim->terms.bits & SPH_CULLEN_DEHNEN)) return SPH_OK;
   for (int g = 0; g < sim->groups; g++)
     if (acts(e, g)) take_accelerations(e, g);
+  for (int g = 0; g < sim->groups; g++)
+    if (sph_sim_mirror_slips(sim->group[g])) show_images(e, g);
   for (int g = 0; g < sim->groups; g++) {
     if (!acts(e, g)) continue;
     const int *order = sph_neighbors_order(sim->neighbors, g);

@@ -114,7 +114,7 @@ static void resets(void **state)
   const double none = rest((setup){.until = 40}, &motion);
   const double alone = rest((setup){.reset = "mls", .until = 40}, &motion);
   assert_true(none > 0.004 && none <= 0.02);
-  assert_true(alone > none && alone <= 0.03);
+  assert_true(alone > none && alone <= 0.04);
 }
 
 int main(void)
