@@ -5,10 +5,10 @@
  * R/dx = 20, h/dx = 2, rate = omega.  Error: root mean square over the period and both axes,
  * divided by the largest semi-axis: bar 2e-3 without viscosity.  With alpha = 0.02 (bar 7e-3 with
  * corrected gradients, 0.01 without; the exact drop is inviscid) the energy falls by 4 nu rate^2
- * per mass and time, nu = alpha h c0/16: the equivalent of Monaghan's viscosity in 2D, alpha h c0/8,
- * for approaching pairs only.  Angular momentum and the place of the drop stay.  With corrected
- * gradients (mean), whose surface sums are not cut short, both errors of the inviscid drop are about
- * half of that. */
+ * per mass and time, nu = alpha h c0/16: the equivalent of Monaghan's viscosity in 2D,
+ * alpha h c0/8, for approaching pairs only.  Angular momentum and the place of the drop stay.
+ * With corrected gradients (mean), whose surface sums are not cut short, both errors of the
+ * inviscid drop are about half of that. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
