@@ -96,13 +96,13 @@ static extremes look(const sph_evaluation *e, const sph_group *group, const sph_
   const sph_sim *sim = e->sim;
   const int motion = e->part->motion;
   const double *alpha = varied(e, view), all = damping(sim, e->part->limit_terms);
-  double v2_max = 0, a2_max = 0, speed_max = 0, volume_max = 0, alpha_max = alpha ? 0 : all;
+  double v2_max = 0, a2_max = 0, speed_max = 0, lightest = INFINITY, alpha_max = alpha ? 0 : all;
   const double sound_all = signal_of(sim, e->part, all);
   double least = e->part->limit_terms & SPH_SHIFTS ? shifting(sim, group) : 0;
   long bad = 0, n = view->n;
 #pragma omp parallel for num_threads(sim->threads) schedule(static)                                \
-    reduction(max : v2_max, a2_max, speed_max, volume_max, alpha_max) reduction(+ : bad)           \
-    if (n > PARALLEL_MIN)
+    reduction(max : v2_max, a2_max, speed_max, alpha_max) reduction(min : lightest) \
+    reduction(+ : bad) if (n > PARALLEL_MIN)
   for (long i = 0; i < n; i++) {
     double v2 = 0, a2 = 0;
     for (int d = 0; d < sim->dim; d++) {
@@ -116,10 +116,10 @@ static extremes look(const sph_evaluation *e, const sph_group *group, const sph_
     v2_max = v2 > v2_max ? v2 : v2_max;
     a2_max = a2 > a2_max ? a2 : a2_max;
     speed_max = speed > speed_max ? speed : speed_max;
-    volume_max = 1 / view->rho[i] > volume_max ? 1 / view->rho[i] : volume_max;
+    lightest = view->rho[i] < lightest ? view->rho[i] : lightest;
     bad += !(a2 + v2 + others(sim, view, i) < INFINITY);
   }
-  return (extremes){v2_max, a2_max, speed_max, alpha_max, 1 / volume_max, bad};
+  return (extremes){v2_max, a2_max, speed_max, alpha_max, lightest, bad};
 }
 
 /* A gas may meet itself head on: its approach speed is up to 2 max |v|. */

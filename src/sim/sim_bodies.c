@@ -6,15 +6,17 @@
 
 enum { PARALLEL_MIN = 4096 };
 
-static void start(const sph_sim *sim, const sph_part *part, const sph_view *view)
+static void start(const sph_evaluation *e, const sph_view *view)
 {
+  const sph_sim *sim = e->sim;
+  const sph_part *part = e->part;
   const int moves = part->positions, gravity = part->gravity;
   const double *g = sim->terms.g;
   long n = view->n;
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
   for (long i = 0; i < n; i++) {
     for (int d = 0; d < sim->dim; d++) {
-      view->dx[d][i] = moves ? view->v[d][i] : 0;
+      if (!e->still) view->dx[d][i] = moves ? view->v[d][i] : 0;
       view->dv[d][i] = gravity ? g[d] : 0;
     }
     if (view->drho) view->drho[i] = 0;
@@ -82,7 +84,7 @@ int sph_sim_bodies_add(sph_evaluation *e)
   e->limit_user = INFINITY;
   for (int g = 0; g < sim->groups; g++) {
     if (sim->group[g]->wall) continue;
-    start(sim, e->part, &e->view[g]);
+    start(e, &e->view[g]);
     for (int k = 0; !status && k < sim->terms.called; k++)
       if (e->part->called >> k & 1) status = add(e, g, k);
   }

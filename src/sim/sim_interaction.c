@@ -85,6 +85,7 @@ fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part
   material(sim, target, source, &k);
   if (k.laminar == 0) k.terms &= ~(unsigned)(SPH_MORRIS | SPH_MCG);
   if (k.conduction == 0) k.terms &= ~(unsigned)SPH_CONDUCTION;
+  if ((k.terms & SPH_ARTIFICIAL) && set->beta != 0) k.terms |= SPH_QUADRATIC;
   if (k.terms & SPH_STRESS)
     k.inverse_w_dx = sim->W_scale / sph_kernel_w(sim->kernel, sim->dim, sim->dx, h);
   k.terms = (k.terms & ~(unsigned)SPH_CORRECTED) | fluid_corrections(k.terms);

@@ -15,7 +15,8 @@ typedef struct packing {
   const sph_sim *sim;
   sph_view view;
   const int *order;
-  const double *wrap[3];   /* periodic boxes to subtract; NULL: not periodic */
+  const double *wrap[3];   /* periodic boxes to subtract; NULL: not periodic; */
+  double length[3];        /* their size [m] */
   double *const *wall_sum; /* of the extrapolation; NULL for others than adami walls */
   double *const *seen;     /* velocity that viscous terms see of other walls; NULL for fluids */
   double wall_T;           /* of an isothermal wall [K], else 0 */
@@ -29,7 +30,10 @@ static packing packing_of(const sph_evaluation *e, int g)
 {
   const sph_sim *sim = e->sim;
   packing k = {.sim = sim, .view = e->view[g], .order = sph_neighbors_order(sim->neighbors, g)};
-  for (int d = 0; d < sim->dim; d++) k.wrap[d] = sph_neighbors_wrap(sim->neighbors, g, d);
+  for (int d = 0; d < sim->dim; d++) {
+    k.wrap[d] = sph_neighbors_wrap(sim->neighbors, g, d);
+    k.length[d] = sim->length[d];
+  }
   const sph_group *group = sim->group[g];
   if (group->wall && group->model == SPH_MODEL_ADAMI) k.wall_sum = sim->sorted[g].sum;
   if (group->model == SPH_MODEL_DBC) k.seen = e->view[g].v;
@@ -44,7 +48,7 @@ static packing packing_of(const sph_evaluation *e, int g)
 
 static double position(const packing *k, int d, long i)
 {
-  return k->view.x[d][i] - (k->wrap[d] ? k->wrap[d][i] * k->sim->length[d] : 0);
+  return k->view.x[d][i] - (k->wrap[d] ? k->wrap[d][i] * k->length[d] : 0);
 }
 
 /* The velocity that viscous terms see of a wall particle: 2 v - <v_fluid>. */
@@ -83,35 +87,36 @@ static inline void pack_more(const packing *k, int dim, long s, long i, double *
     record[slot_scalar(dim) + q] = view->s[q] ? view->s[q][i] : 0;
 }
 
-/* One record, at sorted place s: see fluid_pair.h. */
-static inline void pack(const packing *k, int dim, long s)
+/* Records at sorted places begin .. end - 1: see fluid_pair.h. */
+static inline void pack(const packing *k, int dim, long begin, long end)
 {
-  const sph_view *view = &k->view;
-  const long i = k->order[s];
-  double *record = k->record + s * k->stride;
-  const double rho = view->rho[i], p = view->p[i], inverse_rho = 1 / rho;
-  for (int d = 0; d < dim; d++) {
-    record[d] = position(k, d, i);
-    record[slot_v(dim) + d] = view->v[d][i];
+  const sph_view view = k->view;
+  const int *order = k->order, more = k->stride > slot_extra(dim);
+  const int is_c2 = (k->sim->loop_terms & SPH_FORM_C2) != 0;
+  double *record = k->record + begin * k->stride;
+  for (long s = begin; s < end; s++, record += k->stride) {
+    const long i = order[s];
+    const double rho = view.rho[i], p = view.p[i], inverse_rho = 1 / rho;
+    for (int d = 0; d < dim; d++) {
+      record[d] = view.x[d][i] - (k->wrap[d] ? k->wrap[d][i] * k->length[d] : 0);
+      record[slot_v(dim) + d] = view.v[d][i];
+    }
+    record[slot_rho(dim)] = rho;
+    record[slot_p(dim)] = is_c2 ? p : p * inverse_rho * inverse_rho;
+    record[slot_c(dim)] = view.c[i];
+    record[slot_V(dim)] = view.m[i] * inverse_rho;
+    if (more) pack_more(k, dim, s, i, record);
   }
-  record[slot_rho(dim)] = rho;
-  record[slot_p(dim)] = k->sim->loop_terms & SPH_FORM_C2 ? p : p * inverse_rho * inverse_rho;
-  record[slot_c(dim)] = view->c[i];
-  record[slot_V(dim)] = view->m[i] * inverse_rho;
-  if (k->stride > slot_extra(dim)) pack_more(k, dim, s, i, record);
 }
 
 static void pack_range(const packing *k, long begin, long end)
 {
-  const int dim = k->sim->dim;
-  for (long s = begin; s < end; s++) {
-    if (dim == 3)
-      pack(k, 3, s);
-    else if (dim == 2)
-      pack(k, 2, s);
-    else
-      pack(k, 1, s);
-  }
+  if (k->sim->dim == 3)
+    pack(k, 3, begin, end);
+  else if (k->sim->dim == 2)
+    pack(k, 2, begin, end);
+  else
+    pack(k, 1, begin, end);
 }
 
 /* The lanes behind the last particle hold copies of it: finite, and never stored. */
@@ -182,22 +187,13 @@ void sph_sim_pairs_loop_records(sph_sim *sim, sph_pair_function *loop, int targe
     loop(&task, c * BLOCKS, c + 1 < chunks ? (c + 1) * BLOCKS : list.blocks);
 }
 
-/* Adds the sums at sorted place s, scaled, to the rates of particle i. */
-static void add_rates(const sph_sim *sim, const sph_part *part, const sph_group *group,
-                      const sph_view *view, long s, long i)
+/* Adds what only some sets of terms have, of the sums at sorted place s, to the rates of particle
+ * i. */
+static void add_more(const sph_sim *sim, const sph_part *part, const sph_group *group,
+                     const sph_view *view, long s, long i, double compression)
 {
-  const sph_sorted *sorted = &sim->sorted[group->index];
-  double *const *sum = sorted->sum;
-  double compression = sim->F_scale * sum[SPH_SUM_COMPRESSION][s];
-  if (sim->loop_terms & SPH_FORM_C2) compression *= view->rho[i];
-  if (sorted->phi) compression *= sorted->phi[i];
-  for (int d = 0; d < sim->dim; d++) view->dv[d][i] += sim->F_scale * sum[SPH_SUM_A + d][s];
-  if (view->drho) {
-    double diffusion = sim->terms.delta * sim->h * group->eos.c0 * sim->F_scale;
-    if (part->rates & SPH_CONTINUITY) view->drho[i] += compression;
-    if (part->rates & SPH_DIFFUSION) view->drho[i] += diffusion * sum[SPH_SUM_DIFFUSION][s];
-    if (part->tiles) view->drho[i] += sim->F_scale * sum[SPH_SUM_DENSITY][s];
-  }
+  double *const *sum = sim->sorted[group->index].sum;
+  if (view->drho && part->tiles) view->drho[i] += sim->F_scale * sum[SPH_SUM_DENSITY][s];
   if (part->rates & SPH_XSPH)
     for (int d = 0; d < sim->dim; d++) view->dx[d][i] += sim->W_scale * sum[SPH_SUM_DRIFT + d][s];
   for (int q = 0; q < group->scalars && part->tiles; q++)
@@ -206,6 +202,31 @@ static void add_rates(const sph_sim *sim, const sph_part *part, const sph_group 
   double heat = view->du[i] + sim->F_scale * sum[SPH_SUM_HEAT][s];
   if (!(part->rates & SPH_PRESSURE_FORCE)) compression = 0;
   view->du[i] = sph_sim_energy_rate(group, view, i, heat, compression);
+}
+
+/* Adds the sums at sorted places begin .. end - 1, scaled, to the rates. */
+static void add_rates(const sph_sim *sim, const sph_part *part, const sph_group *group,
+                      const sph_view *at, long begin, long end)
+{
+  const sph_view view = *at;
+  const sph_sorted *sorted = &sim->sorted[group->index];
+  const int *order = sph_neighbors_order(sim->neighbors, group->index);
+  const double *sum[SPH_SUM_DIFFUSION + 1], scale = sim->F_scale;
+  const double diffusion =
+      part->rates & SPH_DIFFUSION ? sim->terms.delta * sim->h * group->eos.c0 * scale : 0;
+  const int compresses = (part->rates & SPH_CONTINUITY) != 0, dim = sim->dim;
+  const int more = part->tiles || (part->rates & SPH_XSPH) || view.du;
+  for (int q = 0; q <= SPH_SUM_DIFFUSION; q++) sum[q] = sorted->sum[q];
+  for (long s = begin; s < end; s++) {
+    const long i = order[s];
+    double compression = scale * sum[SPH_SUM_COMPRESSION][s];
+    if (sim->loop_terms & SPH_FORM_C2) compression *= view.rho[i];
+    if (sorted->phi) compression *= sorted->phi[i];
+    for (int d = 0; d < dim; d++) view.dv[d][i] += scale * sum[SPH_SUM_A + d][s];
+    if (view.drho && compresses) view.drho[i] += compression;
+    if (view.drho && diffusion != 0) view.drho[i] += diffusion * sum[SPH_SUM_DIFFUSION][s];
+    if (more) add_more(sim, part, group, at, s, i, compression);
+  }
 }
 
 /* Without pairs: only the heating by body terms is made the rate of the energy. */
@@ -222,14 +243,14 @@ static void add_heating(const sph_evaluation *e, int g)
 void sph_sim_pairs_rates(sph_evaluation *e, int g)
 {
   sph_sim *sim = e->sim;
-  const int *order = sph_neighbors_order(sim->neighbors, g);
   if (!e->part->pairs) {
     add_heating(e, g);
     return;
   }
-#pragma omp parallel for num_threads(sim->threads) schedule(static) if (e->view[g].n > PARALLEL_MIN)
-  for (long s = 0; s < e->view[g].n; s++)
-    add_rates(sim, e->part, sim->group[g], &e->view[g], s, order[s]);
+  const long n = e->view[g].n;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
+  for (long s = 0; s < n; s += PACKED)
+    add_rates(sim, e->part, sim->group[g], &e->view[g], s, s + PACKED < n ? s + PACKED : n);
 }
 
 int sph_sim_pairs_add(sph_evaluation *e)

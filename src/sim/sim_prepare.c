@@ -461,6 +461,7 @@ sph_problem sph_sim_prepare_problem(sph_sim *sim)
                        .threads = sim->threads,
                        .drift = sim->part[SPH_WHOLE].shift || (sim->loop_terms & SPH_XSPH),
                        .rhs = sph_sim_rhs,
+                       .rhs_still = sph_sim_rhs_still,
                        .weights = sph_sim_weights,
                        .rhs_piece = sph_sim_rhs_piece,
                        .limits = limits,

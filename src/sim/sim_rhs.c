@@ -35,15 +35,21 @@ static int phases(sph_evaluation *e)
   return status;
 }
 
-int sph_sim_rhs_part(sph_sim *sim, const sph_part *part, double t, N_Vector y, N_Vector ydot)
+static int evaluate(sph_sim *sim, const sph_part *part, int still, double t, N_Vector y,
+                    N_Vector ydot)
 {
   double begin = sph_clock();
-  sph_evaluation e = {.sim = sim, .t = t, .part = part};
+  sph_evaluation e = {.sim = sim, .t = t, .part = part, .still = still};
   sph_sim_rhs_views(&e, y, ydot);
   int status = phases(&e);
   sim->derived = 0; /* pressure etc. are those of y */
   sim->rhs_seconds += sph_clock() - begin;
   return status;
+}
+
+int sph_sim_rhs_part(sph_sim *sim, const sph_part *part, double t, N_Vector y, N_Vector ydot)
+{
+  return evaluate(sim, part, 0, t, y, ydot);
 }
 
 int sph_sim_rhs_vectors(sph_sim *sim, N_Vector y, N_Vector other)
@@ -65,6 +71,13 @@ int sph_sim_rhs_piece(int piece, double t, N_Vector y, N_Vector ydot, void *ctx)
 int sph_sim_rhs(double t, N_Vector y, N_Vector ydot, void *ctx)
 {
   return sph_sim_rhs_piece(SPH_WHOLE, t, y, ydot, ctx);
+}
+
+int sph_sim_rhs_still(double t, N_Vector y, N_Vector ydot, void *ctx)
+{
+  sph_sim *sim = ctx;
+  int status = sph_sim_rhs_vectors(sim, y, ydot);
+  return status ? status : evaluate(sim, &sim->part[SPH_WHOLE], 1, t, y, ydot);
 }
 
 int sph_sim_rhs_explicit(double t, N_Vector y, N_Vector ydot, void *ctx)

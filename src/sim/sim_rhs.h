@@ -10,6 +10,7 @@ typedef struct sph_evaluation {
   sph_sim *sim;
   double t;
   const sph_part *part; /* which is evaluated */
+  int still;            /* the rates of positions are not written */
   double limit_user;    /* step limit of body terms [s] */
   sph_view view[SPH_SETS_MAX];
   double drag_rate[2]; /* largest of fluids, of dust [1/s] */
@@ -26,6 +27,8 @@ int sph_sim_rhs_show_anew(sph_sim *sim, double t, N_Vector y);
 int sph_sim_rhs_part(sph_sim *sim, const sph_part *part, double t, N_Vector y, N_Vector ydot);
 /* A part of f: enum sph_piece, or SPH_WHOLE. */
 int sph_sim_rhs_piece(int piece, double t, N_Vector y, N_Vector ydot, void *sim);
+/* f, but for the rates of positions: these stay as they are (sph_problem.rhs_still). */
+int sph_sim_rhs_still(double t, N_Vector y, N_Vector ydot, void *sim);
 /* Are these two of the simulation, or longer?  Else recorded. */
 int sph_sim_rhs_vectors(sph_sim *sim, N_Vector y, N_Vector other);
 

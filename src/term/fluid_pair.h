@@ -34,6 +34,7 @@ enum {
   SPH_MORRIS_MONAGHAN = 262144,
   SPH_CULLEN_DEHNEN = 524288,
   SPH_STRESS = 1 << 25,
+  SPH_QUADRATIC = 1 << 26, /* the artificial viscosity has a beta */
   /* Gradients of these terms are corrected: */
   SPH_CONTINUITY_CORRECTED = 1 << 20,
   SPH_PRESSURE_ONE_SIDED = 1 << 21,
@@ -137,9 +138,8 @@ typedef struct pair {
   vec v_viscous[3], rv_viscous; /* v, r.v as viscous terms see them: others at no-slip walls */
   vec F, VF, mF;                /* F, V_j F, m_j F */
   vec stretch;                  /* e.B e, e = r/|r|, for the viscosity of fluids; or 1 */
-  vec push;                     /* pressure acceleration of i so far: push * r */
-  vec along_r,
-      along_v; /* dissipative acceleration of i so far: along_r * r + along_v * v_viscous */
+  vec push;                     /* pressure acceleration of i so far: VF push * r */
+  vec along_r, along_v;         /* dissipative one so far: VF (along_r * r + along_v * v_viscous) */
 } pair;
 
 BODY particle fluid_particle(int dim, unsigned terms, const vec *slot)
@@ -213,13 +213,14 @@ BODY vec fluid_regular(int kernel, const fluid_constants *k, const pair *p)
  * work. */
 BODY void fluid_pair_forces(int dim, unsigned terms, const pair *p, vec *sum)
 {
-  for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += (p->push + p->along_r) * p->r[d];
+  vec central = p->VF * (p->push + p->along_r), drag = p->VF * p->along_v;
+  for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += central * p->r[d];
   if (terms & SPH_MORRIS)
-    for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += p->along_v * p->v_viscous[d];
+    for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += drag * p->v_viscous[d];
   if (!(terms & SPH_THERMAL)) return;
   vec work = p->along_r * p->rv_viscous;
   if (terms & SPH_MORRIS) work += p->along_v * fluid_dot(dim, p->v_viscous, p->v_viscous);
-  sum[SPH_SUM_HEAT] -= 0.5 * work;
+  sum[SPH_SUM_HEAT] -= 0.5 * p->VF * work;
 }
 
 #endif

@@ -19,7 +19,7 @@ typedef struct constants {
 BODY constants constants_of(const sph_tangent_task *t, unsigned terms, const double *number,
                             const double *derivative)
 {
-  constants k = {.fluid.terms = terms, .kernel = t->kernel};
+  constants k = {.fluid.terms = terms | SPH_QUADRATIC, .kernel = t->kernel}; /* beta may vary */
   void *numbers = (char *)&k.fluid + offsetof(fluid_constants, inverse_h);
   vec_scalar *to = numbers;
   for (int n = 0; number && n < SPH_FLUID_NUMBERS; n++)

@@ -21,11 +21,11 @@
 BODY void term_pressure(unsigned terms, pair *p, const particle *i, const particle *j)
 {
   if (terms & SPH_FORM_C2)
-    p->push -= p->VF * (i->p + j->p) * (1 / i->rho);
+    p->push -= i->p * (1 / i->rho) + j->p * (1 / i->rho); /* of i alone: once a block */
   else if (terms & SPH_FORM_PHI)
-    p->push -= p->mF * (i->p / j->phi + j->p / i->phi); /* the slots hold phi p/rho^2 */
+    p->push -= j->rho * (i->p / j->phi + j->p / i->phi); /* the slots hold phi p/rho^2 */
   else
-    p->push -= p->mF * (i->p + j->p); /* the slots hold p/rho^2 */
+    p->push -= j->rho * (i->p + j->p); /* the slots hold p/rho^2 */
 }
 
 BODY void term_pressure_corrected(int dim, unsigned terms, const pair *p, const particle *i,

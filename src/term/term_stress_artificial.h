@@ -23,9 +23,9 @@ BODY void term_stress_artificial(int dim, int kernel, unsigned terms, pair *p,
   vec least = v_min(p_i, p_j); /* > 0: both are positive */
   vec near = kernel_shape_w(kernel, dim, p->distance * k->inverse_h) * k->inverse_w_dx;
   near *= near;
-  vec stress = v_select(v_less(zero, least), pressed, pulled) * near * near * p->mF;
+  vec stress = v_select(v_less(zero, least), pressed, pulled) * near * near * j->rho;
   p->push -= stress;
-  if (terms & SPH_THERMAL) sum[SPH_SUM_HEAT] += 0.5 * stress * p->rv;
+  if (terms & SPH_THERMAL) sum[SPH_SUM_HEAT] += 0.5 * p->VF * stress * p->rv;
 }
 
 #endif

@@ -4,7 +4,8 @@
  *   Pi_ij = (-alpha c_ij mu_ij + beta mu_ij^2)/rho_ij  if v_ij . r_ij < 0, else 0
  *   mu_ij = h v_ij . r_ij/(r^2 + eta^2),  eta^2 = 0.01 h^2,  c_ij, rho_ij: means
  *
- * Central and antisymmetric; gas alpha = 1, beta = 2; water alpha = 0.01 .. 0.1, beta = 0. */
+ * Central and antisymmetric; gas alpha = 1, beta = 2; water alpha = 0.01 .. 0.1, beta = 0: then
+ * SPH_QUADRATIC is not set, and what it stands for left out. */
 #ifndef SPH_TERM_VISCOSITY_ARTIFICIAL_H
 #define SPH_TERM_VISCOSITY_ARTIFICIAL_H
 #include "term_switch.h"
@@ -13,9 +14,9 @@ BODY void term_viscosity_artificial(unsigned terms, pair *p, const fluid_constan
                                     const particle *i, const particle *j)
 {
   vec w = v_min0(p->rv_viscous), e = p->r2 + k->eta2;
-  p->along_r -= term_switch(terms, i, j) * p->mF * w *
-                (k->viscosity_1 * (i->c + j->c) * e + k->viscosity_2 * w) /
-                (e * e * (i->rho + j->rho));
+  vec above = k->viscosity_1 * (i->c + j->c), below = e * (i->rho + j->rho);
+  if (terms & SPH_QUADRATIC) above = above * e + k->viscosity_2 * w, below *= e;
+  p->along_r -= term_switch(terms, i, j) * (j->rho * w) * above / below;
 }
 
 #endif

@@ -21,13 +21,13 @@
 
 BODY void term_viscosity_morris(pair *p, int kernel, const fluid_constants *k, const particle *i)
 {
-  p->along_v += k->laminar * p->VF * p->stretch * fluid_regular(kernel, k, p) / i->rho;
+  p->along_v += k->laminar * p->stretch * fluid_regular(kernel, k, p) / i->rho;
 }
 
 BODY void term_viscosity_mcg(pair *p, int kernel, const fluid_constants *k, const particle *i)
 {
   vec rate = p->rv_viscous / fluid_apart(p->r2) * p->stretch;
-  p->along_r += k->laminar * p->VF * rate * fluid_regular(kernel, k, p) / i->rho;
+  p->along_r += k->laminar * rate * fluid_regular(kernel, k, p) / i->rho;
 }
 
 #endif

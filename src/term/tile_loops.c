@@ -9,7 +9,7 @@ BODY const tile_constants *constants_of(const sph_pair_task *t) { return t->cons
   static __attribute__((noinline)) void rare_##dim(const sph_pair_task *t, long b, long e) \
   {                                                                                        \
     const fluid_constants *k = &constants_of(t)->fluid;                                    \
-    tile_blocks(dim, k->kernel, k->terms, t, b, e);                                        \
+    tile_blocks(dim, k->kernel, k->terms, 1, t, b, e);                                     \
   }                                                                                        \
   static void matrix_##dim(const sph_matrix_task *t, long b, long e)                       \
   {                                                                                        \
@@ -27,7 +27,7 @@ ANY(3)
     if (terms & SPH_RARE)                                                   \
       rare_##dim(t, b, e);                                                  \
     else                                                                    \
-      tile_blocks(dim, kernel, terms & ~(unsigned)SPH_RARE, t, b, e);       \
+      tile_blocks(dim, kernel, terms & ~(unsigned)SPH_RARE, 0, t, b, e);    \
   }
 #define KERNEL(kernel) TILE(kernel, 1) TILE(kernel, 2) TILE(kernel, 3)
 SPH_KERNEL_LIST(KERNEL)

@@ -206,27 +206,31 @@ BODY void tile_fields(const sph_tile_term *one, tile_rows *rows, sph_tile *tile)
   tile->ds = s < 0 ? NULL : (double *)rows->ds[s];
 }
 
-/* Forces along r, from rows that hold them; dissipative ones heat. */
+/* Sum of a[q] b[q]: in a register, not in memory that rows might lie in. */
+BODY vec tile_product(const vec *a, const vec *b, int n)
+{
+  vec total = v_set(0);
+  for (int q = 0; q < n; q++) total += a[q] * b[q];
+  return total;
+}
+
+/* Forces along r, from rows that hold them; dissipative ones, with rv, heat. */
 BODY void tile_take_along(int dim, const tile_rows *rows, const vec *along, const vec *rv, int n,
                           vec *sum)
 {
-  for (int q = 0; q < n; q++) {
-    for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += along[q] * rows->r[d][q];
-    if (rv) sum[SPH_SUM_HEAT] -= 0.5 * along[q] * rv[q];
-  }
+  for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += tile_product(along, rows->r[d], n);
+  if (rv) sum[SPH_SUM_HEAT] -= 0.5 * tile_product(along, rv, n);
 }
 
-BODY void tile_take_drag(int dim, const tile_rows *rows, const vec (*v)[SPH_TILE_ROWS], int n,
-                         vec *sum)
+BODY void tile_take_drag(int dim, const tile_rows *rows, const vec (*v)[SPH_TILE_ROWS], int heats,
+                         int n, vec *sum)
 {
-  for (int q = 0; q < n; q++) {
-    vec v2 = v_set(0);
-    for (int d = 0; d < dim; d++) {
-      sum[SPH_SUM_A + d] += rows->along_v[q] * v[d][q];
-      v2 += v[d][q] * v[d][q];
-    }
-    sum[SPH_SUM_HEAT] -= 0.5 * rows->along_v[q] * v2;
+  vec work = v_set(0);
+  for (int d = 0; d < dim; d++) {
+    sum[SPH_SUM_A + d] += tile_product(rows->along_v, v[d], n);
+    for (int q = 0; heats && q < n; q++) work += rows->along_v[q] * v[d][q] * v[d][q];
   }
+  sum[SPH_SUM_HEAT] -= 0.5 * work;
 }
 
 BODY vec tile_total(const vec *row, int n)
@@ -242,7 +246,8 @@ static __attribute__((noinline, unused)) void
 tile_call(int dim, const tile_constants *k, tile_rows *rows, int n, vec *taken, vec *more)
 {
   const int no_slip = (k->fluid.terms & SPH_NO_SLIP) != 0;
-  const vec unit = v_set(1 / k->F_scale);
+  const int heats = (k->fluid.terms & SPH_THERMAL) != 0;
+  const vec unit = v_set(1 / k->F_scale), *rv = no_slip ? rows->rv_viscous : rows->rv;
   sph_tile tile = tile_open(dim, k, rows, n);
   tile_clear(k->adds, rows, n);
   for (int q = 0; q < k->terms; q++) {
@@ -252,9 +257,9 @@ tile_call(int dim, const tile_constants *k, tile_rows *rows, int n, vec *taken, 
   for (int s = 0; s < SPH_SUM_DRIFT; s++) taken[s] = v_set(0);
   if (k->adds & SPH_TILE_PUSH) tile_take_along(dim, rows, rows->push, NULL, n, taken);
   if (k->adds & SPH_TILE_ALONG_R)
-    tile_take_along(dim, rows, rows->along_r, no_slip ? rows->rv_viscous : rows->rv, n, taken);
+    tile_take_along(dim, rows, rows->along_r, heats ? rv : NULL, n, taken);
   if (k->adds & SPH_TILE_ALONG_V)
-    tile_take_drag(dim, rows, no_slip ? rows->v_viscous : rows->v, n, taken);
+    tile_take_drag(dim, rows, no_slip ? rows->v_viscous : rows->v, heats, n, taken);
   if (k->adds & SPH_TILE_DU) taken[SPH_SUM_HEAT] += tile_total(rows->du, n);
   if (k->adds & SPH_TILE_DRHO) more[0] += unit * tile_total(rows->drho, n);
   for (int s = 0; s < k->scalars; s++) more[1 + s] += unit * tile_total(rows->ds[s], n);
@@ -288,6 +293,7 @@ BODY void tile_block(int dim, int kernel, unsigned terms, const sph_pair_task *t
 #pragma GCC unroll 26
     for (int s = 0; s < slots; s++) i[s] = s < dim ? home[s] - t->shift[run.image][s] : home[s];
     const double *source = t->source + (long)run.start * t->source_stride;
+    pair_prefetch(source + (long)run.count * t->source_stride, slots);
     for (int q = 0; q < (int)run.count; q++, source += t->source_stride) {
 #pragma GCC unroll 26
       for (int s = 0; s < slots; s++) j[s] = v_set(source[s]);
@@ -300,21 +306,22 @@ BODY void tile_block(int dim, int kernel, unsigned terms, const sph_pair_task *t
   if (n > 0) tile_take(dim, k, rows, n, sum, more);
 }
 
-BODY void tile_blocks(int dim, int kernel, unsigned terms, const sph_pair_task *t, long begin,
-                      long end)
+BODY void tile_blocks(int dim, int kernel, unsigned terms, int rare, const sph_pair_task *t,
+                      long begin, long end)
 {
   const tile_constants *k = t->constants;
+  const int sums = rare ? SPH_FLUID_SUMS_ALL : SPH_FLUID_SUMS; /* those of the built-in terms */
   tile_rows rows;
   for (long b = begin; b < end; b++) {
     if (t->first[b] == t->first[b + 1]) continue;
     vec sum[SPH_FLUID_SUMS_ALL], more[1 + SPH_SCALARS_MAX];
 #pragma GCC unroll 9
-    for (int s = 0; s < SPH_FLUID_SUMS_ALL; s++) sum[s] = v_load(t->sum[s] + b * SPH_LANES);
+    for (int s = 0; s < sums; s++) sum[s] = v_load(t->sum[s] + b * SPH_LANES);
     for (int s = 0; s <= k->scalars; s++)
       more[s] = v_load(t->sum[SPH_SUM_DENSITY + s] + b * SPH_LANES);
     tile_block(dim, kernel, terms, t, b, sum, more, &rows);
 #pragma GCC unroll 9
-    for (int s = 0; s < SPH_FLUID_SUMS_ALL; s++) v_store(t->sum[s] + b * SPH_LANES, sum[s]);
+    for (int s = 0; s < sums; s++) v_store(t->sum[s] + b * SPH_LANES, sum[s]);
     for (int s = 0; s <= k->scalars; s++)
       v_store(t->sum[SPH_SUM_DENSITY + s] + b * SPH_LANES, more[s]);
   }

@@ -50,13 +50,23 @@ static void release(sph_integrator *it)
   sph_memory_free(own);
 }
 
+/* Rates that the scheme reads: leapfrog moves positions by velocities alone. */
+static int rates(sph_integrator *it, double t, N_Vector y, N_Vector ydot)
+{
+  const sph_problem *problem = &it->problem;
+  if (problem->drift || !problem->rhs_still || it->scheme->step != sph_integrator_leapfrog.step)
+    return sph_integrator_rhs(it, t, y, ydot);
+  it->stats.rhs_evaluations++;
+  return it->rhs_status = problem->rhs_still(t, y, ydot, problem->ctx);
+}
+
 static int start(sph_integrator *it)
 {
   stepping *own = it->own;
   own->ended = 0;
   own->ode.step = 0;
   own->ode.h_last = 0;
-  return sph_integrator_rhs(it, it->time, it->y, own->f0);
+  return rates(it, it->time, it->y, own->f0);
 }
 
 /* The vector whose entries these are, or NULL. */
@@ -82,7 +92,7 @@ int sph_ode_rhs(sph_ode *ode, double t, const double *y, double *f)
                            "%s: sph_ode_rhs takes two different arrays of the sph_ode, "
                            "and writes to y, f1 or work",
                            own->it->info.name);
-  if (!status) status = sph_integrator_rhs(own->it, t, at, rate);
+  if (!status) status = rates(own->it, t, at, rate);
   if (!own->status) own->status = status;
   return status;
 }

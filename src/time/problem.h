@@ -40,6 +40,9 @@ typedef struct sph_problem {
   int threads;
   int drift; /* dr/dt is not v: what f says of positions counts, also in second-order schemes */
   int (*rhs)(double t, N_Vector y, N_Vector ydot, void *ctx); /* counts itself nothing */
+  /* The same, but leaves the rates of positions as they are: for schemes that take the velocities
+   * for them, so that memory for these rates is never touched.  NULL: rhs.  Only without drift. */
+  int (*rhs_still)(double t, N_Vector y, N_Vector ydot, void *ctx);
   int (*weights)(N_Vector y, N_Vector weight,
                  void *ctx); /* 1 / scale of each entry (tolerance 1); must be > 0 */
   int (*limits)(double t, N_Vector y, sph_step_limit *limit,
