@@ -1,9 +1,9 @@
 /* Lid-driven cavity, Re = U L/nu = 100: velocities along both centre lines against Ghia, Ghia and
- * Shin (1982), data/ghia_1982_re100_[uv].csv, with shifting, a background pressure of 0.05 rho0
- * c0^2 and a lid that slides without being moved.  Means over time, by moving least squares of
- * order 1 from the fluid alone; rms over the points of both lines inside the walls, in U.  50 x 50
- * particles: at most 0.018 (SPHODE_TEST_LONG); 25 x 25, which goes always: 0.036, as of first
- * order. */
+ * Shin (1982), data/ghia_1982_re100_[uv].csv, with corrected gradients, shifting, a background
+ * pressure of 0.05 rho0 c0^2 and a lid that slides without being moved.  Means over time, by moving
+ * least squares of order 1 from the fluid alone; rms over the points of both lines inside the
+ * walls, in U.  20 x 20 particles, which go always, before the flow is steady: at most 0.028;
+ * 50 x 50 (SPHODE_TEST_LONG): 0.01, and at Re = 400 0.03. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -81,9 +81,9 @@ static sph_sim *cavity(int n, double Re)
   sph_group_set_boundary(lid, wall);
   sph_term shifting = sph_term_shifting("fick", U);
   shifting.surface = 0;
-  sph_sim_add_term(sim, sph_term_continuity());
-  sph_sim_add_term(sim, sph_term_pressure());
-  sph_sim_add_term(sim, sph_term_viscosity_laminar("morris"));
+  sph_sim_add_term(sim, sph_term_corrected(sph_term_continuity(), "one-sided"));
+  sph_sim_add_term(sim, sph_term_corrected(sph_term_pressure(), "mean"));
+  sph_sim_add_term(sim, sph_term_corrected(sph_term_viscosity_laminar("morris"), "mean"));
   sph_sim_add_term(sim, sph_term_delta("antuono", 0.1));
   sph_sim_add_term(sim, shifting);
   assert_string_equal(sph_sim_error(sim), "");
@@ -132,9 +132,7 @@ static double distance(int n, int Re, double t)
   double sum = 0, points = 0, of[2] = {0, 0};
   for (int k = 0; k < 2; k++) {
     for (long i = 0; i < lines[k].n; i++) {
-      const int outlier = Re == 400 && k == 1 && lines[k].at[i] == 0.9063; /* of the table */
-      const int wall = lines[k].at[i] == 0 || lines[k].at[i] == 1;
-      if (outlier || wall) continue;
+      if (lines[k].at[i] == 0 || lines[k].at[i] == 1) continue; /* walls */
       double apart = lines[k].sum[i] / SAMPLES / U - lines[k].value[i];
       of[k] += apart * apart, points += 1;
     }
@@ -150,15 +148,15 @@ static double distance(int n, int Re, double t)
 static void coarse(void **state)
 {
   (void)state;
-  assert_true(distance(20, 100, 8) <= 0.036);
+  assert_true(distance(20, 100, 8) <= 0.028);
 }
 
 static void fine(void **state)
 {
   (void)state;
   if (!getenv("SPHODE_TEST_LONG")) return;
-  assert_true(distance(50, 100, 16) <= 0.018);
-  distance(50, 400, 30);
+  assert_true(distance(50, 100, 16) <= 0.01);
+  assert_true(distance(50, 400, 36) <= 0.03);
 }
 
 int main(void)
