@@ -14,10 +14,16 @@ enum { STAGE = 200 };
 static void print_groups(const sph_sim *sim)
 {
   const sph_group *group;
-  for (int k = 0; (group = sph_sim_group_get(sim, k)); k++)
-    printf("%-12s %ld %s particles%s%s\n", sph_group_name(group), sph_group_count(group),
+  for (int k = 0; (group = sph_sim_group_get(sim, k)); k++) {
+    const sph_packing *p = sph_group_packing(group);
+    printf("%-12s %ld %s particles%s%s", sph_group_name(group), sph_group_count(group),
            sph_group_kind(group), sph_group_eos(group) ? ", " : "",
            sph_group_eos(group) ? sph_group_eos(group)->name : "");
+    if (p)
+      printf(", packed in %d moves to %.2g (%s; on the lattice %.2g)", p->iterations, p->uniformity,
+             p->settled ? "as wanted" : "not as even as wanted", p->before);
+    putchar('\n');
+  }
   printf("%-12s dim %d, dx = %.4g m, h = %.4g m (%.3g dx), %s\n", "resolution", sph_sim_dim(sim),
          sph_sim_dx(sim), sph_sim_h(sim), sph_sim_h(sim) / sph_sim_dx(sim), sph_sim_kernel(sim));
 }

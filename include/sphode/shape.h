@@ -74,12 +74,28 @@ SPH_API int sph_shape_bounds(const sph_shape *shape, double *lower, double *uppe
 SPH_API int sph_shape_dim(const sph_shape *shape);
 SPH_API void sph_shape_free(sph_shape *shape); /* NULL is fine */
 
+/* Particles that fit the shape: as many as its volume over dx^dim, the outermost half a spacing
+ * from its surface, moved apart until h times the rms of the gradient of their concentration
+ * sum V W (with images behind the surface) is at most `uniformity`. */
+typedef struct sph_pack {
+  double uniformity; /* 0: 0.03; a lattice that is cut has 0.1 to 0.3 */
+  int iterations;    /* at most, and no longer than they help; 0: 500 */
+} sph_pack;
+
+typedef struct sph_packing {
+  long particles;
+  int iterations, settled; /* settled 0: not as uniform as wanted */
+  double before, uniformity;
+  double volume; /* of the shape [m^dim] */
+} sph_packing;
+
 /* How a shape is filled.  Of every lattice a particle has the volume dx^dim. */
 typedef struct sph_fill {
-  double rho0;         /* density [kg/m^3] */
-  const char *lattice; /* NULL: "square" in 1D and 2D, "cubic" in 3D */
-  double origin[3];    /* a corner of a cell of the lattice [m] */
-  double stretch[3];   /* of its cells, as to fit into a box; volumes and masses follow; 0: 1 */
+  double rho0;          /* density [kg/m^3] */
+  const char *lattice;  /* NULL: "square" in 1D and 2D, "cubic" in 3D */
+  double origin[3];     /* a corner of a cell of the lattice [m] */
+  double stretch[3];    /* of its cells, as to fit into a box; volumes and masses follow; 0: 1 */
+  const sph_pack *pack; /* NULL: as on the lattice */
 } sph_fill;
 
 /* Lattice k = 0, 1, ...: "square", "hexagonal" (2D), "cubic", "bcc", "fcc", "hcp" (3D); NULL behind
@@ -93,6 +109,9 @@ SPH_API int sph_shape_lattice_cell(const char *name, double *side);
  * simulation. */
 SPH_API void sph_group_add_shape(struct sph_group *group, const sph_shape *shape,
                                  const sph_fill *fill);
+
+/* What came of the last packing of a group; NULL: it has none. */
+SPH_API const sph_packing *sph_group_packing(const struct sph_group *group);
 
 #ifdef __cplusplus
 }

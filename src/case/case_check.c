@@ -83,6 +83,9 @@ static int check_range(sph_case *c, const sph_case_key *key, const sph_case_node
   if (isinf(key->high))
     return FAIL(node, 0, "%s: found %g%s%s; must be >= %g", key->name, node->number, gap, unit,
                 key->low);
+  if (key->low == DBL_MIN)
+    return FAIL(node, 0, "%s: found %g%s%s; must be > 0 and at most %g", key->name, node->number,
+                gap, unit, key->high);
   return FAIL(node, 0, "%s: found %g%s%s; must be from %g to %g", key->name, node->number, gap,
               unit, key->low, key->high);
 }

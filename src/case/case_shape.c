@@ -181,7 +181,8 @@ int sph_case_shape_is(const sph_case_node *group, const sph_case_node *shape)
   for (int k = 0; k < 3; k++)
     if (!strcmp(shape->key, others[k])) return 0;
   const int plain = !strcmp(shape->key, "box") || !strcmp(shape->key, "ball");
-  return !plain || child_of(group, "lattice") || child_of(group, "lattice_origin");
+  return !plain || child_of(group, "lattice") || child_of(group, "lattice_origin") ||
+         child_of(group, "packing");
 }
 
 /* A box is filled with whole cells: they begin at its corner and are stretched a little. */
@@ -207,7 +208,12 @@ int sph_case_shape_add(const sph_case *c, sph_sim *sim, sph_group *group, const 
   const double support = ceil(reach / dx - 1e-9) * dx; /* whole layers */
   sph_fill fill = {.rho0 = density, .lattice = get_text(map, "lattice", NULL)};
   get_vector(map, "lattice_origin", fill.origin);
-  if (!strcmp(shape->key, "box") && !child_of(map, "lattice_origin")) fit(c, shape, dx, &fill);
+  const sph_case_node *packing = child_of(map, "packing");
+  const sph_pack pack = {.uniformity = get_number(packing, "uniformity", 0),
+                         .iterations = (int)get_number(packing, "iterations", 0)};
+  if (packing) fill.pack = &pack;
+  if (!strcmp(shape->key, "box") && !child_of(map, "lattice_origin") && !packing)
+    fit(c, shape, dx, &fill);
   sph_shape *s = sph_case_shape_of(c, shape, dx, support, error);
   if (!s) return error->status;
   sph_group_add_shape(group, s, &fill);

@@ -9,7 +9,7 @@
 
 static const char *const colours[] = {"#31688e", "#35b779", "#d95f02",
                                       "#7570b3", "#e7298a", "#a6761d"};
-static const char *const walls[] = {"#8a8a8a", "#bdbdbd", "#5c5c5c"};
+static const char *const walls[] = {"#8a8a8a", "#bdbdbd", "#5c5c5c", "#a89f91", "#d8cfc0"};
 
 typedef struct view {
   const sph_sim *sim;
@@ -112,7 +112,7 @@ int sph_plot_geometry(const sph_sim *sim, const char *title, const char *png, sp
     if (!add_group(&v, group, &data)) continue;
     sph_text_add(&plots, "%s data index %d using 1:2:(%.6g) with circles lc rgb '%s' title ",
                  index ? ", \\\n " : "plot", index, 0.45 * sph_sim_dx(sim),
-                 wall ? walls[n % 3] : colours[n % 6]);
+                 wall ? walls[n % 5] : colours[n % 6]);
     sph_text_gnuplot_string(&plots, sph_group_name(group));
     index++;
   }

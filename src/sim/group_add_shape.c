@@ -3,6 +3,7 @@
 
 #include "memory.h"
 #include "shape_lattice.h"
+#include "shape_pack.h"
 #include "sim_data.h"
 #include "sphode/shape.h"
 
@@ -13,6 +14,8 @@ typedef struct filler {
   const sph_shape_lattice *lattice;
   int dim;
   double dx, side[3], origin[3]; /* of a cell [m] */
+  sph_packing *packing;          /* of the group */
+  double margin;                 /* places so far outside are taken, too [m] */
   long from[3], to[3];           /* cells that are looked at */
   long n, room;
   double *x[3];
@@ -41,7 +44,7 @@ static double distance(const filler *f, const double x[3])
 {
   static const double hair[3] = {1e-6, 0.7e-6, 0.3e-6};
   const double at[3] = {x[0] + hair[0] * f->dx, x[1] + hair[1] * f->dx, x[2] + hair[2] * f->dx};
-  return sph_shape_distance(f->shape, at);
+  return sph_shape_distance(f->shape, at) - f->margin;
 }
 
 /* Point p of the cells along a row, the last direction: as far as a distance reaches, nothing
@@ -87,8 +90,8 @@ static int choose_cells(filler *f, const sph_fill *fill)
     const double stretch = fill->stretch[d] > 0 ? fill->stretch[d] : 1;
     f->side[d] = f->lattice->cell[d] * f->dx * stretch;
     f->origin[d] = fill->origin[d];
-    const double from = floor((lower[d] - f->origin[d]) / f->side[d]) - 1;
-    const double to = ceil((upper[d] - f->origin[d]) / f->side[d]) + 1;
+    const double from = floor((lower[d] - f->margin - f->origin[d]) / f->side[d]) - 1;
+    const double to = ceil((upper[d] + f->margin - f->origin[d]) / f->side[d]) + 1;
     count *= fmax(0, to - from);
     if (!(fabs(from) < 1e9 && fabs(to) < 1e9 && count <= MOST))
       return sph_error_set(f->error, SPH_ERR_ARGUMENT,
@@ -101,6 +104,15 @@ static int choose_cells(filler *f, const sph_fill *fill)
   return SPH_OK;
 }
 
+static int pack(filler *f, const sph_fill *fill)
+{
+  for (int d = 0; d < f->dim; d++)
+    if (fill->stretch[d] > 0)
+      return sph_error_set(f->error, SPH_ERR_ARGUMENT,
+                           "a lattice is stretched or packed, not both");
+  return sph_shape_pack(f->shape, f->dx, fill->pack, &f->n, f->x, f->packing, f->error);
+}
+
 static int find(filler *f, const sph_fill *fill)
 {
   f->lattice = sph_shape_lattice_find(fill->lattice, f->dim, f->error);
@@ -110,6 +122,7 @@ static int find(filler *f, const sph_fill *fill)
                          sph_shape_dim(f->shape), f->dim);
   int status = choose_cells(f, fill);
   if (!status) status = add_all(f);
+  if (!status && f->n > 0 && fill->pack) status = pack(f, fill);
   if (status || f->n > 0) return status;
   return sph_error_set(f->error, SPH_ERR_ARGUMENT,
                        "no place of the lattice (dx = %g m) lies in the shape", f->dx);
@@ -121,7 +134,12 @@ void sph_group_add_shape(sph_group *group, const sph_shape *shape, const sph_fil
   sph_error error = {0};
   if (!group || !sph_sim_data_ok(group->sim)) return;
   if (!fill) fill = &none;
-  filler f = {.shape = shape, .dim = group->dim, .dx = group->sim->dx, .error = &error};
+  filler f = {.shape = shape,
+              .dim = group->dim,
+              .dx = group->sim->dx,
+              .packing = &group->packing,
+              .margin = fill->pack ? group->sim->dx : 0,
+              .error = &error};
   const long before = group->n;
   int status = find(&f, fill);
   if (status)
@@ -132,4 +150,9 @@ void sph_group_add_shape(sph_group *group, const sph_shape *shape, const sph_fil
     for (long i = before; i < group->n && fill->stretch[d] > 0; i++)
       group->own[SPH_MASS][0][i] *= fill->stretch[d];
   for (int d = 0; d < 3; d++) sph_memory_free(f.x[d]);
+}
+
+const sph_packing *sph_group_packing(const sph_group *group)
+{
+  return group && group->packing.particles > 0 ? &group->packing : NULL;
 }

@@ -5,6 +5,7 @@
 #include "sphode/boundary.h"
 #include "sphode/eos.h"
 #include "sphode/field.h"
+#include "sphode/shape.h"
 #include "sphode/term.h"
 
 /* Fields, then the scalars that terms bring along (sphode/term.h). */
@@ -65,9 +66,10 @@ struct sph_group {
   double viscosity;    /* dynamic [Pa s] */
   double conductivity; /* of heat [W/(m K)] */
   enum sph_energy energy;
-  int summed;  /* density is a sum over neighbours, not integrated */
-  int scalars; /* integrated besides: fields SPH_SCALAR, ... */
-  double rho0; /* walls: density where no fluid tells it [kg/m^3] */
+  int summed;          /* density is a sum over neighbours, not integrated */
+  int scalars;         /* integrated besides: fields SPH_SCALAR, ... */
+  double rho0;         /* walls: density where no fluid tells it [kg/m^3] */
+  sph_packing packing; /* of its last packed shape; particles 0: none */
 };
 
 /* All pointers of one evaluation: made at its start from the vectors at hand, never stored. */
