@@ -10,7 +10,7 @@ with open(os.path.join(root, 'configure.ac')) as file:
 
 extensions = ['myst_parser', 'breathe']
 root_doc = 'docs/site/index'
-include_patterns = ['README.md', 'CONTRIBUTING.md', 'NEWS.md', 'docs/**', 'examples/README.md']
+include_patterns = ['README.md', 'CONTRIBUTING.md', 'NEWS.md', 'docs/**', 'examples/README.md', 'packaging/README.md']
 exclude_patterns = ['docs/site/*.py']
 source_suffix = {'.md': 'markdown'}
 
