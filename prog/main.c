@@ -74,10 +74,13 @@ static const command commands[] = {
      "where\n"
      "there are comparisons.  Exit status: 0 done, 1 a run failed (the others are kept), 3 a\n"
      "comparison misses its bar.\n"},
-    {"schema", "", "", sph_prog_schema, "print the JSON Schema of case files, for editors",
-     "  In an editor with a YAML language server: sphode schema > sphode.schema.json, and as the\n"
+    {"schema", "[FILE]", "f", sph_prog_schema,
+     "the JSON Schema of case files, for editors, into a file or to standard output",
+     "  In an editor with a YAML language server: sphode schema sphode.schema.json, and as the\n"
      "  first line of a case\n"
-     "  # yaml-language-server: $schema=sphode.schema.json\n"},
+     "  # yaml-language-server: $schema=sphode.schema.json\n"
+     "\n"
+     "  -f, --force            write over a file\n"},
     {"info", "LIST", "jcQPD", sph_prog_info,
      "what there is: kernels, eos, materials, terms, integrators, boundaries, searches, case",
      "  LIST is kernels, eos, materials, terms, integrators, boundaries, searches, or case (the\n"
@@ -301,13 +304,10 @@ static int parse(const command *c, int argc, char **argv, prog_options *o)
       status = take(o, letter, optarg);
   }
   argv[0] = first;
-  const int given = argc - optind, may = c->argument[0] != 0, must = may && c->argument[0] != '[';
-  if (!status && (given < must || given > may))
-    status = sph_prog_error(PROG_USAGE, "%s wants %s%s, found %d", c->name,
-                            !may   ? "no argument"
-                            : must ? "one "
-                                   : "at most one ",
-                            c->argument, given);
+  const int given = argc - optind, must = c->argument[0] != '[';
+  if (!status && (given < must || given > 1))
+    status = sph_prog_error(PROG_USAGE, "%s wants %s %s, found %d", c->name,
+                            must ? "one" : "at most one", c->argument, given);
   if (status) {
     fprintf(stderr, "Try 'sphode %s --help'.\n", c->name);
     return status;

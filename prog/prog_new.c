@@ -27,10 +27,9 @@ static int write_file(const char *path, const char *text, int force)
   const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | (force ? O_TRUNC : O_EXCL);
   const int at = open(path, flags, 0666);
   if (at < 0 && errno == EEXIST)
-    return sph_prog_error(PROG_FAILED,
-                          "%s is there already; --output FILE goes elsewhere, --force writes over "
-                          "it",
-                          path);
+    return sph_prog_error(
+        PROG_FAILED, "%s is there already; another name goes elsewhere, --force writes over it",
+        path);
   FILE *file = at < 0 ? NULL : fdopen(at, "wb");
   int bad = !file || fwrite(text, 1, strlen(text), file) != strlen(text);
   bad = (file && fclose(file)) || bad;
@@ -60,12 +59,15 @@ int sph_prog_new(const prog_options *o)
 
 int sph_prog_schema(const prog_options *o)
 {
-  (void)o;
   const int n = sph_case_schema_json(NULL, 0);
   char *text = n > 0 ? malloc((size_t)n + 1) : NULL;
   if (!text) return sph_prog_error(PROG_FAILED, "out of memory");
   sph_case_schema_json(text, (size_t)n + 1);
-  fputs(text, stdout);
+  int status = PROG_OK;
+  if (o->what)
+    status = write_file(o->what, text, o->force);
+  else
+    fputs(text, stdout);
   free(text);
-  return PROG_OK;
+  return status;
 }

@@ -97,6 +97,8 @@ ok $? "nothing is left behind"
 
 run 0 "$sphode" schema && cmp out "$SRCDIR/docs/sphode.schema.json"
 ok $? "docs/sphode.schema.json is that of the table (sphode schema > docs/sphode.schema.json)"
+run 0 "$sphode" schema s.json && cmp s.json "$SRCDIR/docs/sphode.schema.json" && run 1 "$sphode" schema s.json && grep -q "s.json is there already" err
+ok $? "into a file, which it does not write over"
 if python3 -c 'import jsonschema, yaml' 2>/dev/null; then
   python3 - "$SRCDIR" <<'END'
 import glob, json, sys, jsonschema, yaml
