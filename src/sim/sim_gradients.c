@@ -9,6 +9,7 @@
 #include "gradient_loops.h"
 #include "sim_rhs.h"
 
+enum { SOLVED = 256 }; /* at once */
 static const double LEAST_EIGENVALUE = 0.4, LEAST_CORRECTED = 0.2;
 
 /* Cholesky of the dim x dim matrix A - shift I; 0 where it is not positive definite. */
@@ -54,15 +55,67 @@ int sph_sim_gradients_factor(const sph_sim *sim, double *const *matrix, long s, 
   return factor(sim, matrix, s, LEAST_EIGENVALUE, L);
 }
 
-static void finish(const sph_sim *sim, sph_sorted *sorted, long s)
+/* A symmetric matrix and its cofactors; of fewer dimensions with a diagonal of ones behind. */
+typedef struct symmetric {
+  double xx, xy, xz, yy, yz, zz;
+} symmetric;
+
+static inline symmetric matrix_at(int dim, double scale, double *const *sum, long s)
 {
-  int dim = sim->dim, first = gradient_sums(dim) - dim;
-  double L[3][3], gradient[3] = {0};
-  if (!sph_sim_gradients_factor(sim, sorted->sum, s, L)) return; /* the slots hold zeros */
-  for (int a = 0; a < dim; a++) gradient[a] = sim->F_scale * sorted->sum[first + a][s];
-  sph_sim_gradients_solve(dim, L, gradient);
-  for (int a = 0; a < dim; a++)
-    sorted->record[s * sorted->stride + slot_extra(dim) + a] = gradient[a];
+  symmetric M = {.xx = scale * sum[0][s], .yy = 1, .zz = 1};
+  if (dim > 1) M.xy = scale * sum[1][s], M.yy = scale * sum[dim][s];
+  if (dim > 2) M.xz = scale * sum[2][s], M.yz = scale * sum[4][s], M.zz = scale * sum[5][s];
+  return M;
+}
+
+static inline symmetric cofactors(const symmetric *M)
+{
+  return (symmetric){.xx = M->yy * M->zz - M->yz * M->yz,
+                     .xy = M->xz * M->yz - M->xy * M->zz,
+                     .xz = M->xy * M->yz - M->xz * M->yy,
+                     .yy = M->xx * M->zz - M->xz * M->xz,
+                     .yz = M->xy * M->xz - M->xx * M->yz,
+                     .zz = M->xx * M->yy - M->xy * M->xy};
+}
+
+static inline double determinant(const symmetric *M, const symmetric *C)
+{
+  return M->xx * C->xx + M->xy * C->xy + M->xz * C->xz;
+}
+
+/* Is every eigenvalue above `least`?  All leading minors of M - least are positive then. */
+static inline int above(symmetric M, double least)
+{
+  M.xx -= least, M.yy -= least, M.zz -= least;
+  const symmetric C = cofactors(&M);
+  return M.xx > 0 && C.zz > 0 && determinant(&M, &C) > 0;
+}
+
+/* M^-1 b by cofactors, M being far from singular: one division a particle. */
+static inline void finish(const sph_sim *sim, int dim, const sph_sorted *sorted, long s)
+{
+  const double scale = sim->F_scale;
+  double *const *sum = sorted->sum, *const *b = sum + gradient_sums(dim) - dim;
+  double *gradient = sorted->record + s * sorted->stride + slot_extra(dim);
+  const symmetric M = matrix_at(dim, scale, sum, s), C = cofactors(&M);
+  if (!above(M, LEAST_EIGENVALUE)) return; /* the slots hold zeros */
+  const double x = b[0][s], y = dim > 1 ? b[1][s] : 0, z = dim > 2 ? b[2][s] : 0;
+  const double factor = scale / determinant(&M, &C);
+  gradient[0] = factor * (C.xx * x + C.xy * y + C.xz * z);
+  if (dim > 1) gradient[1] = factor * (C.xy * x + C.yy * y + C.yz * z);
+  if (dim > 2) gradient[2] = factor * (C.xz * x + C.yz * y + C.zz * z);
+}
+
+static void finish_range(const sph_sim *sim, const sph_sorted *sorted, long begin, long end)
+{
+  for (long s = begin; s < end; s++) {
+    if (sim->dim == 3)
+      finish(sim, 3, sorted, s);
+    else if (sim->dim == 2)
+      finish(sim, 2, sorted, s);
+    else
+      finish(sim, 1, sorted, s);
+  }
 }
 
 /* B at sorted place s. */
@@ -100,7 +153,8 @@ int sph_sim_gradients(sph_evaluation *e)
     add_sums(sim, g, 1);
     if (e->part->rates & SPH_ANTUONO) {
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > 2048)
-      for (long s = 0; s < n; s++) finish(sim, &sim->sorted[g], s);
+      for (long s = 0; s < n; s += SOLVED)
+        finish_range(sim, &sim->sorted[g], s, s + SOLVED < n ? s + SOLVED : n);
     }
     if (!(e->part->terms & SPH_CORRECTED)) continue;
     add_sums(sim, g, 0);
