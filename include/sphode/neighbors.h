@@ -38,7 +38,7 @@ typedef struct sph_neighbors_def {
 /* Runs of one block: targets first[b] .. first[b + 1] - 1 index runs[]. */
 typedef struct sph_run {
   int start;           /* first source, in the sorted order of the source set */
-  unsigned count : 24; /* how many consecutive ones */
+  unsigned count : 24; /* how many consecutive ones, at least 1 */
   unsigned image : 8;  /* index of the periodic shift to subtract from the target's position */
 } sph_run;
 
