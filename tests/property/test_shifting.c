@@ -660,9 +660,8 @@ static void restart(void **state)
   remove(directory);
 }
 
-/* Leapfrog, which writes no rates of positions where these are velocities, does where particles are
- * shifted, too.  Beside
- * another scheme of second order. */
+/* Leapfrog goes without the rates of positions where these are velocities; shifted ones are not.
+ * Beside it another scheme of second order. */
 static void leapfrog(void **state)
 {
   (void)state;
