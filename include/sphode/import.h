@@ -11,7 +11,7 @@ extern "C" {
  *
  *   .csv            a line with names, and units in brackets or none, then a row a particle;
  *                   columns x (y, z), and where they are there velocity_x ..., density, mass,
- *                   energy
+ *                   energy; other fields (pressure, ...) are passed over, other columns refused
  *   .hdf, .hdf5     GADGET's layout, as snapshots of sphode: Coordinates, and Velocities, Density,
  *                   Masses (or MassTable of the header), InternalEnergy where they are there
  *

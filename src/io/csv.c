@@ -105,30 +105,56 @@ int sph_csv_read(const char *path, const char *name, int column, double **values
   return sph_csv_read_rows(path, (sph_csv_rows){NULL, NULL}, name, column, values, n, title, error);
 }
 
+/* Opens the table and reads its header; t is there but where memory was not. */
+static int start(table **to, const char *path, sph_error *error)
+{
+  table *t = *to = SPH_NEW(table, 1, "a line of a table", error);
+  if (!t) return SPH_ERR_MEMORY;
+  t->path = path ? path : "(none)";
+  t->file = path ? fopen(path, "r") : NULL;
+  if (!t->file)
+    return sph_error_set(error, SPH_ERR_FILE, "cannot read %s: %s", t->path,
+                         strerror(path ? errno : ENOENT));
+  return next_line(t) ? SPH_OK : sph_error_set(error, SPH_ERR_PARSE, "%s: an empty table", t->path);
+}
+
+static void finish(table *t)
+{
+  if (t->file) fclose(t->file);
+  sph_memory_free(t);
+}
+
+int sph_csv_name(const char *path, int k, char name[128], sph_error *error)
+{
+  table *t = NULL;
+  int status = start(&t, path, error);
+  if (status == SPH_ERR_MEMORY) return status;
+  const char *at = status ? NULL : field(t, k);
+  if (at) {
+    size_t length = strcspn(at, ",[");
+    while (length > 0 && (at[length - 1] == ' ' || at[length - 1] == '\t')) length--;
+    snprintf(name, 128, "%.*s", (int)length, at);
+  }
+  finish(t);
+  return status ? status : at != NULL;
+}
+
 int sph_csv_read_rows(const char *path, sph_csv_rows rows, const char *name, int column,
                       double **values, long *n, char title[128], sph_error *error)
 {
   int where = -1;
   *values = NULL;
   *n = 0;
-  table *t = SPH_NEW(table, 1, "a line of a table", error);
-  if (!t) return SPH_ERR_MEMORY;
-  t->path = path ? path : "(none)";
-  t->file = path ? fopen(path, "r") : NULL;
-  int status = SPH_OK;
-  if (!t->file)
-    status = sph_error_set(error, SPH_ERR_FILE, "cannot read %s: %s", t->path,
-                           strerror(path ? errno : ENOENT));
-  else if (!next_line(t))
-    status = sph_error_set(error, SPH_ERR_PARSE, "%s: an empty table", t->path);
+  table *t = NULL;
+  int status = start(&t, path, error);
+  if (status == SPH_ERR_MEMORY) return status;
   if (status == SPH_OK && rows.column) {
     where = find_column(t, rows.column, 0, title, error);
     status = where < 0 ? where : SPH_OK;
   }
   int found = status == SPH_OK ? find_column(t, name, column, title, error) : status;
   status = found < 0 ? found : read_values(t, where, rows.is, found, values, n, error);
-  if (t->file) fclose(t->file);
-  sph_memory_free(t);
+  finish(t);
   if (status == SPH_OK) return status;
   sph_memory_free(*values);
   *values = NULL;

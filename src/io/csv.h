@@ -16,4 +16,7 @@ int sph_csv_read(const char *path, const char *name, int column, double **values
 int sph_csv_read_rows(const char *path, sph_csv_rows rows, const char *name, int column,
                       double **values, long *n, char title[128], sph_error *error);
 
+/* The name of column k = 0, 1, ..., without its unit: 1; 0 behind the last one; or < 0. */
+int sph_csv_name(const char *path, int k, char name[128], sph_error *error);
+
 #endif

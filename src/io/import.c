@@ -62,10 +62,42 @@ static void bracket(const char *title, char unit[128])
   if (close) snprintf(unit, 128, "%.*s", (int)(close - open - 1), open + 1);
 }
 
-static int read_csv(importer *m)
+/* Is it a field, or a component of one, that is taken or follows from what is? */
+static int is_known(const sph_group *group, const char *name)
+{
+  static const char *const passed[] = {"group", "id", "smoothing_length"}; /* of exports */
+  const sph_field_info *info;
+  for (size_t k = 0; k < sizeof passed / sizeof *passed; k++)
+    if (!strcmp(passed[k], name)) return 1;
+  for (int k = 0; k < WANTED; k++)
+    if (!strcmp(wanted[k].column, name)) return 1;
+  for (int k = 0; (info = sph_group_field(group, k)); k++)
+    if (!info->vector && !strcmp(info->name, name)) return 1;
+  return 0;
+}
+
+/* What stands in a column that nobody takes would be lost without a word. */
+static int check_columns(importer *m, const sph_group *group)
+{
+  char name[128];
+  int there = 1;
+  for (int k = 0; there == 1; k++) {
+    there = sph_csv_name(m->def->path, k, name, &m->error);
+    if (there == 1 && !is_known(group, name))
+      return sph_error_set(
+          &m->error, SPH_ERR_ARGUMENT,
+          "%s: column %d is \"%.60s\"; right are x, y, z, velocity_x, velocity_y, "
+          "velocity_z, density, mass, energy (other fields of the group are passed "
+          "over)",
+          m->def->path, k + 1, name);
+  }
+  return there;
+}
+
+static int read_csv(importer *m, const sph_group *group)
 {
   const int dim = sph_sim_dim(m->sim);
-  int status = SPH_OK;
+  int status = check_columns(m, group);
   for (int k = 0; k < WANTED && !status; k++) {
     char title[128], unit[128];
     long n = 0;
@@ -160,7 +192,7 @@ void sph_import(sph_sim *sim, sph_group *group, const sph_import_def *def)
   if (!def || !def->path || !*def->path)
     status = sph_error_set(&m.error, SPH_ERR_ARGUMENT, "import: of no file");
   else if (ends(def->path, ".csv"))
-    status = read_csv(&m);
+    status = read_csv(&m, group);
   else if (ends(def->path, ".hdf") || ends(def->path, ".hdf5"))
     status = read_hdf5(&m);
   else

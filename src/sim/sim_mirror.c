@@ -466,6 +466,45 @@ void sph_sim_mirror_fill(const sph_evaluation *e, int g)
 
 /* ---- between steps ---- */
 
+/* Two planes face to face: the room between them, else INFINITY. */
+static double room(const mirror *a, const mirror *b)
+{
+  double between[3];
+  for (int d = 0; d < 3; d++) between[d] = b->point[d] - a->point[d];
+  return dot(a->normal, b->normal) < -1 + 1e-9 ? dot(between, a->normal) : INFINITY;
+}
+
+static int apart(sph_sim *sim, int g, const mirror *m, int other)
+{
+  const sph_evaluation e = {.sim = sim, .t = sim->time};
+  const double reach = sim->H + sim->skin;
+  for (int k = 0; k < sim->group[other]->boundary.planes; k++) {
+    const mirror facing = stand(&e, sim->group[other], k);
+    const double distance = room(m, &facing);
+    if (distance < reach)
+      return sph_sim_fail(sim, SPH_ERR_STATE,
+                          "t = %g s: mirrors %s and %s have moved to %g m from each other; right "
+                          "is the support and the skin, %g m, or more",
+                          sim->time, sim->group[other]->name, sim->group[g]->name, distance, reach);
+  }
+  return SPH_OK;
+}
+
+int sph_sim_mirror_apart(sph_sim *sim)
+{
+  const sph_evaluation e = {.sim = sim, .t = sim->time};
+  int status = SPH_OK;
+  for (int g = 0; g < sim->groups; g++) /* those that do not move were fit before the run */
+    for (int k = 0; is_mirror(sim->group[g]) && k < sim->group[g]->boundary.planes; k++)
+      for (int o = 0; o < g && !status; o++) {
+        if (!is_mirror(sim->group[o])) continue;
+        if (!sim->group[g]->boundary.motion && !sim->group[o]->boundary.motion) continue;
+        const mirror m = stand(&e, sim->group[g], k);
+        status = apart(sim, g, &m, o);
+      }
+  return status;
+}
+
 static int bounce(int dim, const mirror *m, const sph_view *view, long i)
 {
   double x[3], v[3], d = 0;

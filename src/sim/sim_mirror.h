@@ -26,6 +26,8 @@ void sph_sim_mirror_stand(sph_sim *sim, double t);
 /* Positions, masses, velocities of the ghosts of mirror g; then, behind eos, all the rest. */
 void sph_sim_mirror_place(const sph_evaluation *e, int g);
 void sph_sim_mirror_fill(const sph_evaluation *e, int g);
+/* Between steps: have mirrors face to face come nearer than their images may?  Then an error. */
+int sph_sim_mirror_apart(sph_sim *sim);
 /* Between steps: what is behind a mirror comes back, with its velocity reflected: by the symmetry
  * of images the same state, but for gravity.  Returns how many. */
 long sph_sim_mirror_bounce(sph_sim *sim);

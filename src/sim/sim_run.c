@@ -178,6 +178,7 @@ int sph_sim_run_step(sph_sim *sim, double t_stop, int framed)
   if (!status && cut) status = sph_sim_event_act(sim);
   if (!status) status = sph_sim_modifier_run(sim);
   if (!status) sph_sim_mirror_bounce(sim);
+  if (!status) status = sph_sim_mirror_apart(sim);
   return status;
 }
 

@@ -146,6 +146,10 @@ static void refused(void **state)
   refuse("a.hdf5", "not HDF5", "no such HDF5 file");
   refuse("a.csv", "x,z\n1,2\n", "no column \"y\"");
   refuse("a.csv", "x,y\n", "no particles");
+  refuse("a.csv", "x,y,velocty_x\n1,2,3\n",
+         "a.csv: column 3 is \"velocty_x\"; right are x, y, z, ");
+  refuse("a.csv", "x,y, rho [kg/m^3]\n1,2,3\n", "column 3 is \"rho\"");
+  refuse("a.csv", "x,y,\n1,2,\n", "column 3 is \"\"");
   refuse("a.csv", "x,y\n1,two\n", "a.csv:2: \"two\"");
   refuse("a.csv", "x,y\n1\n", "a.csv:2: ");
   refuse("a.csv", "x [mm],y [mm]\n1,2\n", "position in mm; right is m");

@@ -298,6 +298,33 @@ static void piston(void **state)
   sph_sim_free(sim);
 }
 
+/* The room to the other end was enough at the start; the step after which it is not is told. */
+static void closes(void **state)
+{
+  (void)state;
+  sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 1, .dx = 0.02, .h_over_dx = 1.5});
+  sph_group *gas = sph_group_box(sim, "gas", (double[]){0.96}, (double[]){1}, 1);
+  sph_group_set_eos(gas, sph_eos_ideal_gas(1.4));
+  for (int k = 0; k < 2; k++) {
+    sph_boundary boundary = sph_boundary_mirror();
+    sph_boundary_mirror_plane(&boundary, k ? (double[]){1} : (double[]){0},
+                              k ? (double[]){-1} : (double[]){1}, 1);
+    boundary.motion = k ? NULL : push;
+    sph_group_set_boundary(sph_group_create(sim, k ? "end" : "piston", "wall"), boundary);
+  }
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, sph_term_pressure());
+  for (long i = 0; i < 2; i++) sph_group_write(gas, "energy", 0)[i] = 0.01;
+  assert_int_equal(sph_sim_run(sim, 2.7), SPH_OK); /* 0.19 m apart */
+  assert_true(sph_sim_run(sim, 3.2) < 0);
+  const double t = sph_sim_time(sim), room = 1 - 0.3 * t;
+  char told[80];
+  snprintf(told, sizeof told, "t = %g s: mirrors piston and end have moved to %g m", t, room);
+  if (!strstr(sph_sim_error(sim), told)) fail_msg("%s not in: %s", told, sph_sim_error(sim));
+  assert_true(room < 0.1 && room > 0.04); /* the support is 0.06 m */
+  sph_sim_free(sim);
+}
+
 /* Far from the liquid, which rests, there are no images: they come with the piston. */
 static void comes_near(void **state)
 {
@@ -591,6 +618,7 @@ int main(void)
       cmocka_unit_test(shifting_and_switches),
       cmocka_unit_test(tilted),
       cmocka_unit_test(piston),
+      cmocka_unit_test(closes),
       cmocka_unit_test(comes_near),
       cmocka_unit_test(dynamic_rates),
       cmocka_unit_test(same_bits_always),
