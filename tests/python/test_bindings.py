@@ -202,6 +202,7 @@ def ctrl_c_stops_a_run():
             signal.raise_signal(signal.SIGINT)
 
     sim, _ = column(sphode.body(interrupted))
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where a shell started us in the background
     raised(KeyboardInterrupt, sim.run, 1.0)
     sim, _ = column()
     stop = raised(sphode.Error, sim.run, 1.0, progress=lambda s: s.time > 0.01)
