@@ -116,7 +116,7 @@ static int put_particles(prog_live_frame *frame, const sph_sim *sim, const char 
 
 static int put_fields(prog_live_frame *frame, const sph_sim *sim)
 {
-  const sph_group *group = sph_sim_group_get(sim, 0);
+  const sph_group *group;
   const sph_field_info *field;
   int any = 0, bad = put(frame, "\"fields\":[");
   for (int k = 0; (group = sph_sim_group_get(sim, k)) && strcmp(sph_group_kind(group), "fluid");)
