@@ -40,7 +40,7 @@ static int current(const sph_evaluation *e)
 static void take_down(const sph_evaluation *e, int g)
 {
   const sph_sim *sim = e->sim;
-  for (int d = 0; d < sim->dim; d++)
+  for (int d = 0; e->view[g].n > 0 && d < sim->dim; d++) /* a mirror has none */
     memcpy(sim->sorted[g].built[d], e->view[g].x[d], (size_t)e->view[g].n * sizeof(double));
 }
 

@@ -4,6 +4,7 @@ sphode=${SPHODE:-$BUILDDIR/sphode}
 stage=$(mktemp -d) || exit 99
 trap 'rm -rf "$stage"' EXIT
 cd "$stage" || exit 99
+mkdir temporary && export TMPDIR=$stage/temporary
 export OMP_WAIT_POLICY=passive
 
 count=0
@@ -90,7 +91,7 @@ if command -v gnuplot >/dev/null; then
 else
   ok 0 "a picture # SKIP no gnuplot"
 fi
-[[ -z $(ls -d "${TMPDIR:-/tmp}"/sphode-check-* 2>/dev/null) ]]
+[[ -z $(ls "$TMPDIR") ]]
 ok $? "nothing is left behind"
 
 # ---- the schema
