@@ -22,7 +22,7 @@ static const char *const ours[] = {
     "seconds.gp",         "seconds.dat",         "spectrum.csv",          "spectrum.txt",
     "regions.csv",        "spectrum.png",        "spectrum.gp",           "spectrum.dat",
     "sweep.csv",          "convergence.csv",     "convergence.png",       "convergence.gp",
-    "convergence.dat",
+    "convergence.dat",    "failure.csv",
 };
 
 static int is_ours(const char *name)

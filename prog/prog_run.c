@@ -86,11 +86,32 @@ static void tell_checkpoint(const prog_job *j)
 {
   char path[4096];
   sph_checkpoint_info info;
-  if (!sph_checkpoint_find(j->directory, 0, path, sizeof path)) return;
+  if (!sph_checkpoint_find(j->directory, 0, path, sizeof path)) {
+    sph_prog_error(PROG_OK,
+                   "%s holds no checkpoint yet: they are written as checkpoint: {wall: ...} "
+                   "or {steps: ...} of the case tells",
+                   j->directory);
+    return;
+  }
   if (sph_checkpoint_info_read(path, &info, NULL)) return;
   sph_prog_error(PROG_OK, "sphode restart %s goes on from t = %.6g s, step %ld", j->directory,
                  info.time, info.step);
   sph_checkpoint_info_free(&info);
+}
+
+/* A step that failed: what is around the particle at which it did. */
+static void tell_failure(const prog_job *j)
+{
+  char path[4096];
+  sph_error error = {0};
+  snprintf(path, sizeof path, "%s/failure.csv", j->directory);
+  if (sph_failure_write(j->sim, path, &error))
+    sph_prog_error(PROG_OK, "%s", error.text);
+  else
+    sph_prog_error(PROG_OK,
+                   "%s: the particles around it, and what each term does to them; the last "
+                   "snapshot is the last good state (sphode plot %s)",
+                   path, j->directory);
 }
 
 static int simulate(prog_job *j)
@@ -105,6 +126,7 @@ static int simulate(prog_job *j)
   sph_prog_progress_end(&progress);
   if (status == SPH_OK) return PROG_OK;
   sph_prog_error(PROG_FAILED, "%s: %s", j->directory, sph_sim_error(j->sim));
+  if (status == SPH_ERR_STEP) tell_failure(j);
   tell_checkpoint(j);
   if (status != SPH_ERR_STOPPED) return PROG_FAILED;
   int number = sph_prog_progress_signal();

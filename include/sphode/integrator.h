@@ -77,8 +77,10 @@ typedef struct sph_integrator_def {
    * modifiers), at a retry, and where a stop cut a step short.  All have the safety factor 0.9, a
    * step grows by 5 at most (the first by 10), and shrinks to 0.1 at least. */
   const char *controller;
-  double dt_max;   /* [s]; 0: no limit */
-  double dt_min;   /* a smaller step is a failure [s]; 0: 1e-9 of the first limit */
+  double dt_max; /* [s]; 0: no limit */
+  /* A smaller step is a failure [s]; 0: 1e-5 of the first limit, which error control may go below
+   * in 20 steps one after another. */
+  double dt_min;
   double dt_fixed; /* > 0: this step always, limits are not obeyed, nothing is halved [s] */
   int retries;     /* halvings after a step that is not admissible before giving up; 0: 12 */
   /* Of the error of an implicit stage, relative to the same scales; 0: 1e-2 of tolerance with error

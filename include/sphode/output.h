@@ -151,6 +151,13 @@ SPH_API sph_output sph_output_probe(const sph_probe_def *def); /* all is copied 
  * (sphode/event.h), in the file before the run goes on. */
 SPH_API sph_output sph_output_events(const char *directory);
 
+/* ---- a failed run ----------------------------------------------------------------------------
+ * Where sph_sim_run or sph_sim_step returned SPH_ERR_STEP, the error tells the particle at which
+ * the step failed, and all outputs have a frame of the last good state.  This writes, as a CSV, the
+ * particles within two supports of it: group, id, distance [m], all fields, and the acceleration by
+ * each term.  SPH_ERR_STATE: no step has failed. */
+SPH_API int sph_failure_write(struct sph_sim *sim, const char *path, sph_error *error);
+
 /* ---- summary ---------------------------------------------------------------------------------*/
 /* A measured distance from something outside the code. */
 typedef struct sph_comparison {

@@ -1,11 +1,13 @@
 /* Phase admit: are the rates finite, the particles apart?  And the step limits that this evaluation
  * gives. */
+#include <limits.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "count_pair.h"
+#include "sim_failure.h"
 #include "sim_rhs.h"
 
 enum { PARALLEL_MIN = 4096 };
@@ -51,7 +53,8 @@ typedef struct extremes {
   double v2, a2, speed; /* max v^2, max a^2, max of c signal + |v| */
   double alpha;         /* of the artificial viscosities: the largest that acts */
   double lightest;      /* min rho */
-  long bad;             /* particles with a rate that is not finite */
+  long bad;             /* particles with a rate that is not finite, */
+  long first;           /* the first of them */
 } extremes;
 
 /* Magnitude of all rates but the acceleration. */
@@ -99,9 +102,9 @@ static extremes look(const sph_evaluation *e, const sph_group *group, const sph_
   double v2_max = 0, a2_max = 0, speed_max = 0, lightest = INFINITY, alpha_max = alpha ? 0 : all;
   const double sound_all = signal_of(sim, e->part, all);
   double least = e->part->limit_terms & SPH_SHIFTS ? shifting(sim, group) : 0;
-  long bad = 0, n = view->n;
+  long bad = 0, first = LONG_MAX, n = view->n;
 #pragma omp parallel for num_threads(sim->threads) schedule(static)                                \
-    reduction(max : v2_max, a2_max, speed_max, alpha_max) reduction(min : lightest) \
+    reduction(max : v2_max, a2_max, speed_max, alpha_max) reduction(min : lightest, first) \
     reduction(+ : bad) if (n > PARALLEL_MIN)
   for (long i = 0; i < n; i++) {
     double v2 = 0, a2 = 0;
@@ -117,9 +120,11 @@ static extremes look(const sph_evaluation *e, const sph_group *group, const sph_
     a2_max = a2 > a2_max ? a2 : a2_max;
     speed_max = speed > speed_max ? speed : speed_max;
     lightest = view->rho[i] < lightest ? view->rho[i] : lightest;
-    bad += !(a2 + v2 + others(sim, view, i) < INFINITY);
+    const int is_bad = !(a2 + v2 + others(sim, view, i) < INFINITY);
+    bad += is_bad;
+    if (is_bad && i < first) first = i;
   }
-  return (extremes){v2_max, a2_max, speed_max, alpha_max, lightest, bad};
+  return (extremes){v2_max, a2_max, speed_max, alpha_max, lightest, bad, first};
 }
 
 /* A gas may meet itself head on: its approach speed is up to 2 max |v|. */
@@ -178,7 +183,11 @@ int sph_sim_admit(sph_evaluation *e)
     const sph_group *group = sim->group[g];
     if (group->wall) continue;
     const extremes x = look(e, group, &e->view[g]);
-    if (x.bad) return sph_sim_admit_retry(sim, "rates of %ld particles are not finite", x.bad);
+    if (x.bad) {
+      sph_sim_failure_suspect(sim, g, x.first);
+      return sph_sim_admit_retry(sim, "rates of %ld particles are not finite, %ld of %s first",
+                                 x.bad, x.first, group->name);
+    }
     lower(&limit[SPH_BOUND_CFL], slowest(e, group, &x));
     if (!group->eos.dust) lower(&limit[SPH_BOUND_VISCOUS], viscous(e, &x));
     lower(&limit[SPH_BOUND_CONDUCTION], conduction(e, group, &x));

@@ -93,6 +93,12 @@ typedef struct sph_modifying {
   double done;  /* steps since it ran; or intervals so far */
 } sph_modifying;
 
+/* The particle at which a step failed. */
+typedef struct sph_suspect {
+  int known, group;
+  long i; /* its place in the group */
+} sph_suspect;
+
 /* What a user's callbacks remember. */
 typedef struct sph_keeping {
   sph_kept kept; /* its name is the one here */
@@ -108,7 +114,8 @@ typedef struct sph_saver {
 
 struct sph_sim {
   sph_error error;
-  char retry[200]; /* why the last evaluation asked for a smaller step */
+  char retry[300]; /* why the last evaluation asked for a smaller step */
+  sph_suspect suspect;
 
   /* Fixed when created. */
   int dim, threads, isa, kernel_number, periodic[3];

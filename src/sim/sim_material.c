@@ -2,9 +2,17 @@
 #include <math.h>
 
 #include "sim_energy.h"
+#include "sim_failure.h"
 #include "sim_rhs.h"
 
 enum { PARALLEL_MIN = 4096, CHUNK = 2048 };
+
+/* The first of the bad ones is told; at most n. */
+static void suspect(sph_sim *sim, int g, const double *a, double least, long n)
+{
+  for (long i = n - 1; i >= 0; i--)
+    if (!(a[i] > least && a[i] < INFINITY)) sph_sim_failure_suspect(sim, g, i);
+}
 
 /* Entries of a[n] that are not > 0 and finite. */
 static long not_positive(const double *a, long n, int threads)
@@ -24,6 +32,7 @@ int sph_sim_material_eos(sph_evaluation *e)
     const sph_view *view = &e->view[g];
     if (group->wall) continue;
     long n = view->n, bad = not_positive(view->rho, n, sim->threads);
+    if (bad) suspect(sim, g, view->rho, 0, n);
     if (bad)
       return sph_sim_admit_retry(sim, "%s: density of %ld particles is not positive", group->name,
                                  bad);
@@ -37,6 +46,7 @@ int sph_sim_material_eos(sph_evaluation *e)
                           view->p + i, view->c + i);
       for (long k = i; k < i + some; k++) bad += !(view->c[k] < INFINITY);
     }
+    if (bad) suspect(sim, g, view->c, -INFINITY, n);
     if (bad)
       return sph_sim_admit_retry(sim, "%s: %ld particles are in no state of equation of state %s",
                                  group->name, bad, group->eos.name);

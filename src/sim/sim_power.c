@@ -8,6 +8,8 @@
  *   T  c_v dT/dt + (du/drho)_T drho/dt
  *
  * and p/rho^2 drho/dt of the elastic energy of a fluid whose pressure depends on density alone. */
+#include "sim_power.h"
+
 #include <math.h>
 
 #include "sim_force.h"
@@ -88,27 +90,25 @@ static void sum_up(const sph_evaluation *e, sph_power *power)
 }
 
 /* The phases of the right-hand side behind the walls, of one term. */
-static int evaluate(sph_sim *sim, unsigned bits, const sph_called_term *call, N_Vector ydot,
-                    sph_power *power)
+int sph_sim_power_rates(sph_sim *sim, int k, N_Vector ydot, sph_part *part, sph_evaluation *e)
 {
-  sph_evaluation e;
-  sph_part part;
-  int status = sph_sim_force_begin(&e, sim, ydot);
+  const sph_called_term *call;
+  const unsigned bits = find(sim, k, &call);
+  int status = sph_sim_force_begin(e, sim, ydot);
   if (!status)
-    status = sph_sim_parts_of(sim, &part, bits, call ? 1u << (call - sim->terms.call) : 0);
+    status = sph_sim_parts_of(sim, part, bits, call ? 1u << (call - sim->terms.call) : 0);
   if (status) return status;
-  part.gravity = (bits & SPH_UNIFORM) != 0;
-  if (bits & SPH_PRESSURE_FORCE) part.terms |= sim->loop_terms & SPH_CONTINUITY; /* its work */
-  part.terms |= fluid_corrections(part.terms | (sim->loop_terms & SPH_CORRECTED));
-  e.part = &part;
-  status = sph_sim_bodies_add(&e);
-  if (!status) status = sph_sim_gradients(&e);
-  if (!status) status = sph_sim_switches(&e);
-  if (!status) status = sph_sim_shift_add(&e);
-  if (!status) status = sph_sim_drag_add(&e);
-  if (!status) status = sph_sim_pairs_add(&e);
+  part->gravity = (bits & SPH_UNIFORM) != 0;
+  if (bits & SPH_PRESSURE_FORCE) part->terms |= sim->loop_terms & SPH_CONTINUITY; /* its work */
+  part->terms |= fluid_corrections(part->terms | (sim->loop_terms & SPH_CORRECTED));
+  e->part = part;
+  status = sph_sim_bodies_add(e);
+  if (!status) status = sph_sim_gradients(e);
+  if (!status) status = sph_sim_switches(e);
+  if (!status) status = sph_sim_shift_add(e);
+  if (!status) status = sph_sim_drag_add(e);
+  if (!status) status = sph_sim_pairs_add(e);
   if (status > 0) status = sph_sim_fail(sim, SPH_ERR_STEP, "t = %g s: %s", sim->time, sim->retry);
-  if (!status) sum_up(&e, power);
   return status;
 }
 
@@ -128,7 +128,8 @@ static int check(sph_sim *sim)
 
 int sph_sim_power(sph_sim *sim, int k, sph_power *power)
 {
-  const sph_called_term *call;
+  sph_evaluation e;
+  sph_part part;
   if (!sph_sim_data_ok(sim)) return sph_sim_status(sim);
   const char *name = sph_sim_power_term(sim, k);
   if (!name || !power)
@@ -137,11 +138,11 @@ int sph_sim_power(sph_sim *sim, int k, sph_power *power)
   int status = check(sim);
   if (!status) status = sph_sim_prepare(sim);
   if (status) return status;
-  unsigned bits = find(sim, k, &call);
   *power = (sph_power){.term = name};
   N_Vector ydot = sph_nvector_clone(sim->ydot, "the rates of one term", &sim->error);
   if (!ydot) return sim->error.status;
-  status = evaluate(sim, bits, call, ydot, power);
+  status = sph_sim_power_rates(sim, k, ydot, &part, &e);
+  if (!status) sum_up(&e, power);
   N_VDestroy(ydot);
   return status;
 }

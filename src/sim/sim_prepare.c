@@ -10,6 +10,7 @@
 #include "shift_pair.h"
 #include "sim_dominant.h"
 #include "sim_energy.h"
+#include "sim_failure.h"
 #include "sim_fit.h"
 #include "sim_implicit.h"
 #include "sim_keep.h"
@@ -424,6 +425,13 @@ static int limits_fast(double t, N_Vector y, sph_step_limit *limit, void *ctx)
   return SPH_OK;
 }
 
+static int left(sph_sim *sim, int g, long i, double density)
+{
+  sph_sim_failure_suspect(sim, g, i);
+  return sph_sim_admit_retry(sim, "%s: particle %ld left the admissible states: density %g",
+                             sim->group[g]->name, i, density);
+}
+
 /* A state between steps: all finite, density positive, a state of the equation of state. */
 static int admissible(double t, N_Vector y, void *ctx)
 {
@@ -433,24 +441,21 @@ static int admissible(double t, N_Vector y, void *ctx)
     sph_view view = sph_group_data_view(sim->group[g], sph_nvector_data(y), NULL);
     const int dynamic = sim->group[g]->model == SPH_MODEL_DBC;
     for (long i = 0; dynamic && i < view.n; i++)
-      if (!(view.rho[i] > 0 && view.rho[i] < INFINITY))
-        return sph_sim_admit_retry(sim, "%s: particle %ld left the admissible states: density %g",
-                                   sim->group[g]->name, i, view.rho[i]);
+      if (!(view.rho[i] > 0 && view.rho[i] < INFINITY)) return left(sim, g, i, view.rho[i]);
     for (long i = 0; !sim->group[g]->wall && i < view.n; i++) {
       double size = view.rho[i] + (view.energy ? fabs(view.energy[i]) : 0);
       for (int q = 0; q < sim->terms.scalars; q++) size += fabs(view.s[q][i]);
       for (int d = 0; d < sim->dim; d++) size += fabs(view.x[d][i]) + fabs(view.v[d][i]);
-      if (!(view.rho[i] > 0) || !(size < INFINITY))
-        return sph_sim_admit_retry(sim, "%s: particle %ld left the admissible states: density %g",
-                                   sim->group[g]->name, i, view.rho[i]);
+      if (!(view.rho[i] > 0) || !(size < INFINITY)) return left(sim, g, i, view.rho[i]);
     }
     const sph_eos *eos = &sim->group[g]->eos;
     if (sim->group[g]->wall || (eos->thermal && view.energy != view.u)) continue;
     long bad = sph_eos_find_bad(eos, view.n, view.rho, eos->thermal ? view.u : NULL);
-    if (bad >= 0)
-      return sph_sim_admit_retry(
-          sim, "%s: particle %ld is in no state of equation of state %s: density %g",
-          sim->group[g]->name, bad, eos->name, view.rho[bad]);
+    if (bad < 0) continue;
+    sph_sim_failure_suspect(sim, g, bad);
+    return sph_sim_admit_retry(
+        sim, "%s: particle %ld is in no state of equation of state %s: density %g",
+        sim->group[g]->name, bad, eos->name, view.rho[bad]);
   }
   return SPH_OK;
 }

@@ -8,6 +8,7 @@
 
 #include "clock.h"
 #include "sim_event.h"
+#include "sim_failure.h"
 #include "sim_keep.h"
 #include "sim_mirror.h"
 #include "sim_parts.h"
@@ -140,6 +141,7 @@ void sph_sim_run_close(sph_sim *sim)
 static int step(sph_sim *sim, double t_stop)
 {
   sim->retry[0] = 0;
+  sim->suspect.known = 0;
   double from = sph_integrator_time(sim->integrator);
   int status = sph_integrator_step(sim->integrator, t_stop);
   show_end(sim);
@@ -149,6 +151,7 @@ static int step(sph_sim *sim, double t_stop)
     snprintf(sim->error.text + used, sizeof sim->error.text - used, "; the last reason: %s",
              sim->retry);
   }
+  if (status == SPH_ERR_STEP) sph_sim_failure_tell(sim);
   return status;
 }
 

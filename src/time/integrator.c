@@ -14,6 +14,10 @@
 #include "relax.h"
 
 static const double CLOSE = 1e-6; /* relative: such step sizes are the same */
+/* A liquid's limits fall by ten in an impact, by a hundred at most; a run whose steps have become
+ * so much shorter than the first limit that there was has blown up. */
+static const double BLOWN_UP = 1e-5;
+enum { SMALL_STEPS = 20 };
 
 int sph_integrator_info_get(int k, sph_integrator_info *info)
 {
@@ -151,6 +155,7 @@ static void define(sph_integrator *it, const sph_integrator_def *def)
   if (def->stage_tolerance == 0)
     it->def.stage_tolerance = it->adaptive ? 1e-2 * it->def.tolerance : 1e-8;
   it->cfl_given = def->cfl;
+  it->least_given = def->dt_min > 0;
   if (def->fast_tolerance == 0) it->def.fast_tolerance = 0.1 * it->def.tolerance;
   if (def->cfl == 0) it->def.cfl = it->adaptive ? 0.8 : 0.35;
   if (def->retries == 0) it->def.retries = 12;
@@ -219,6 +224,7 @@ int sph_integrator_limit(sph_integrator *it, double t, N_Vector y)
       it->limit = limit.dt[k];
       it->cause = k;
     }
+  if (it->def.dt_min == 0 && it->limit < INFINITY) it->def.dt_min = BLOWN_UP * it->limit;
   return status;
 }
 
@@ -237,7 +243,6 @@ static int start(sph_integrator *it)
   if (!it->adaptive && !(it->def.dt_fixed > 0) && !(it->limit < INFINITY))
     return sph_integrator_fail(it, SPH_ERR_ARGUMENT,
                                "nothing limits it; right is a limit, dt_max or dt_fixed");
-  if (it->def.dt_min == 0 && it->limit < INFINITY) it->def.dt_min = 1e-9 * it->limit;
   it->started = 1;
   return SPH_OK;
 }
@@ -281,7 +286,8 @@ static int accept(sph_integrator *it, const sph_attempt *a)
 static int retry(sph_integrator *it, const sph_attempt *a, int halvings, int status)
 {
   N_VScale(1, it->before, it->y);
-  if (status < 0) return sph_integrator_fail(it, status, "it failed");
+  if (status < 0) return sph_integrator_fail(it, status, "it failed"); /* unless it was recorded */
+  it->bound = SPH_BOUND_RETRY;
   if (halvings >= it->def.retries || it->def.dt_fixed > 0)
     return sph_error_set(
         it->problem.error, SPH_ERR_STEP,
@@ -295,12 +301,28 @@ static int retry(sph_integrator *it, const sph_attempt *a, int halvings, int sta
   return status ? sph_integrator_fail(it, status, "it cannot be repeated") : SPH_OK;
 }
 
+static int fail_small(sph_integrator *it, const sph_attempt *a)
+{
+  it->bound = a->bound;
+  return sph_error_set(
+      it->problem.error, SPH_ERR_STEP,
+      "%s: step at t = %.9g s: dt = %.3g s (bound by %s) is below dt_min = %.3g s%s", it->info.name,
+      it->time, a->h, sph_bound_name(a->bound), it->def.dt_min,
+      it->least_given ? "" : ", 1e-5 of the first limit: the run has blown up");
+}
+
 static int too_small(sph_integrator *it, const sph_attempt *a)
 {
   if (a->bound == SPH_BOUND_STOP || a->h >= it->def.dt_min) return SPH_OK;
-  return sph_error_set(it->problem.error, SPH_ERR_STEP,
-                       "%s: step at t = %.9g s: dt = %.3g s (bound by %s) is below dt_min = %.3g s",
-                       it->info.name, it->time, a->h, sph_bound_name(a->bound), it->def.dt_min);
+  return fail_small(it, a);
+}
+
+/* Error control may begin with tiny steps, and take some where f jumps; it does not stay there. */
+int sph_integrator_controlled(sph_integrator *it, const sph_attempt *a)
+{
+  if (a->bound == SPH_BOUND_STOP) return SPH_OK;
+  it->small = a->h < it->def.dt_min ? it->small + 1 : 0;
+  return it->small > (it->least_given ? 0 : SMALL_STEPS) ? fail_small(it, a) : SPH_OK;
 }
 
 int sph_integrator_step(sph_integrator *it, double t_stop)

@@ -251,9 +251,7 @@ int sph_integrator_arkode_attempt(sph_integrator *it, sph_attempt *a, double t_s
     it->next = own->resume;
   else
     own->call->get_current_step(own->memory, &it->next);
-  return a->bound != SPH_BOUND_STOP && a->h < it->def.dt_min
-             ? sph_integrator_fail(it, SPH_ERR_STEP, "error control asks for less than dt_min")
-             : SPH_OK;
+  return sph_integrator_controlled(it, a);
 }
 
 int sph_integrator_arkode_interpolate(sph_integrator *it, double t, N_Vector at)

@@ -57,6 +57,8 @@ struct sph_integrator {
   int rhs_status;        /* of the last evaluation */
   const char *reason;    /* why the attempt is to be repeated, where no evaluation tells; or NULL */
   int bound;
+  int least_given; /* def.dt_min is the user's */
+  int small;       /* steps below it one after another, where it is not */
   sph_step_stats stats;
   long rejected; /* of them: before the checkpoint that it goes on from */
 };
@@ -67,6 +69,9 @@ int sph_integrator_rhs(sph_integrator *it, double t, N_Vector y, N_Vector ydot);
 int sph_integrator_piece(sph_integrator *it, int piece, double t, N_Vector y, N_Vector ydot);
 /* Asks the problem for its limits and sets it->limit and it->cause. */
 int sph_integrator_limit(sph_integrator *it, double t, N_Vector y);
+/* An attempt that error control has made shorter: below dt_min, or too often below its default?
+ * Else recorded. */
+int sph_integrator_controlled(sph_integrator *it, const sph_attempt *a);
 /* Records a failure of the step that starts at it->time. */
 int sph_integrator_fail(sph_integrator *it, int status, const char *why);
 

@@ -45,6 +45,13 @@ functions() {
   done
   (($(grep -c '^sph_' names) > 250))
 }
+statuses() {
+  local status
+  for status in $(grep -oE '\bX\(SPH_ERR_[A-Z]+' "$SRCDIR/include/sphode/base.h" | cut -c3-); do
+    grep -q "^| \`$status\` |" "$SRCDIR/docs/output.md" || { echo "$status is not in docs/output.md" && return 1; }
+  done
+  [[ -n $status ]]
+}
 groff_says() {
   local file said
   for file in "${pages[@]}"; do
@@ -57,6 +64,7 @@ mandoc_says() { mandoc -T lint -W warning "${pages[@]}"; }
 try "sphode(1) has what the program's help has" program
 try "headers have pages, and sphode(3) lists them" headers
 try "functions are found by their names" functions
+try "statuses are in the manual" statuses
 if command -v groff >/dev/null && man --warnings -l -Tutf8 -Z "${pages[0]}" >/dev/null 2>&1; then
   try "man --warnings says nothing" groff_says
 else
