@@ -66,7 +66,7 @@ typedef struct sph_integrator_def {
    * "verlet" (the same), "dkd", "predictor-corrector", "midpoint", "verlet-dual", "symplectic";
    * NULL: own's, or without one "erk:bogacki-shampine-4-2-3" */
   const char *method;
-  /* Fraction of the scheme's stability limit; 0: 0.8 with error control, 0.35 without. */
+  /* Fraction of the scheme's stability limit; 0: 0.85 with error control, 0.35 without. */
   double cfl;
   /* Of a step's error, relative to the physical scales of each field; 0: 1e-2, or none where the
    * scheme has no estimate; < 0: no error control (CFL alone). */

@@ -102,7 +102,7 @@ sph_fast *sph_fast_create(sph_integrator *it, int order)
     fast->fsal = sph_integrator_table_fsal(fast->table);
     fast->stability = info.stability;
     fast->adaptive = info.error_control && it->def.fast_tolerance >= 0 && !(it->def.fast_step > 0);
-    fast->cfl = it->cfl_given > 0 ? it->cfl_given : fast->adaptive ? 0.8 : 0.35;
+    fast->cfl = it->cfl_given > 0 ? it->cfl_given : sph_integrator_cfl(fast->adaptive);
     if (!vectors(fast)) return fast;
   }
   sph_error_set(it->problem.error, SPH_ERR_MEMORY, "out of memory: table of the fast part");

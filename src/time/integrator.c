@@ -157,7 +157,7 @@ static void define(sph_integrator *it, const sph_integrator_def *def)
   it->cfl_given = def->cfl;
   it->least_given = def->dt_min > 0;
   if (def->fast_tolerance == 0) it->def.fast_tolerance = 0.1 * it->def.tolerance;
-  if (def->cfl == 0) it->def.cfl = it->adaptive ? 0.8 : 0.35;
+  if (def->cfl == 0) it->def.cfl = sph_integrator_cfl(it->adaptive);
   if (def->retries == 0) it->def.retries = 12;
 }
 
