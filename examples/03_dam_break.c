@@ -38,8 +38,7 @@ int main(int argc, char **argv)
   sph_sim_add_term(sim, sph_term_delta("antuono", 0.1));
   sph_sim_add_term(sim, sph_term_gravity((double[3]){0, -g}));
 
-  sph_sim_set_integrator(sim,
-                         &(sph_integrator_def){.method = "erk:bogacki-shampine-4-2-3", .cfl = 0.85});
+  sph_sim_set_integrator(sim, &(sph_integrator_def){.method = "erk:bogacki-shampine-4-2-3"});
   sph_sim_add_output(sim, sph_output_hdf5("dam_break", 0.05));
 
   double t = 1.2 * sqrt(H / g), run = 0;

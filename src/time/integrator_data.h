@@ -5,7 +5,7 @@
 #include "integrator.h"
 #include "sundials.h"
 
-/* Default fraction of a scheme's stability limit: error control repeats a step that was too long. */
+/* Default fraction of the stability limit: error control repeats a step that was too long. */
 static inline double sph_integrator_cfl(int adaptive) { return adaptive ? 0.85 : 0.35; }
 
 /* One try of a step. */
