@@ -48,17 +48,30 @@ static void channel(void)
     }
 }
 
-static void cylinders(void)
+static void cylinder(const char *name, double h_over_dx, int steps)
 {
-  puts("| model | rms/V at 12 across | 24 | order |\n|---|---|---|---|");
-  for (int k = 0; k < 2; k++) {
-    const double coarse = wall_scene_cylinders(model[k], 12, 1.5);
-    const double fine = wall_scene_cylinders(model[k], 24, 1.5);
-    printf("| `%s` | %.2f %% | %.2f %% | %.2f |\n", model[k], 100 * coarse, 100 * fine,
-           log2(coarse / fine));
+  double last = NAN;
+  printf("| `%s` | %.1f |", name, h_over_dx);
+  for (int k = 0; k < 3; k++) {
+    const double error = k < steps ? wall_scene_cylinders(name, 12 << k, h_over_dx) : NAN;
+    if (k < steps) printf(" %.2f %% |", 100 * error);
+    if (k >= steps) printf(" |");
+    if (k > 0 && k < steps) printf(" %.2f |", log2(last / error));
+    if (k > 0 && k >= steps) printf(" |");
+    last = error;
     fflush(stdout);
   }
-  puts("| `mirror` | has planes alone | | |");
+  puts("");
+}
+
+static void cylinders(void)
+{
+  puts("| model | h/Δx | rms/V at 12 across | 24 | order | 48 | order "
+       "|\n|---|---|---|---|---|---|---|");
+  cylinder("adami", 1.5, 3);
+  cylinder("adami", 2, 2);
+  cylinder("dbc", 1.5, 2);
+  puts("| `mirror` | has planes alone | | | | | |");
 }
 
 static void heat(void)

@@ -34,7 +34,8 @@ typedef struct sph_boundary {
   void (*free)(void *); /* called once with ctx; may be NULL */
 } sph_boundary;
 
-/* Adami, Hu & Adams (2012) dummy particles, free slip, p_w >= 0, at rest. */
+/* Adami, Hu & Adams (2012) dummy particles, free slip, p_w >= 0, at rest.  Liquids are repelled
+ * besides: sph_group_set_repulsion. */
 SPH_API sph_boundary sph_boundary_adami(void);
 SPH_API sph_boundary sph_boundary_adami_no_slip(void);
 

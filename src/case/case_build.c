@@ -127,6 +127,7 @@ static int set_boundary(builder *b, sph_group *group, const sph_case_node *of)
     if ((status = add_planes(b, shape->first, &boundary))) return status;
   boundary.no_slip = get_number(map, "no_slip", 0) != 0;
   boundary.tension = get_number(map, "tension", 0) != 0;
+  if (child_of(map, "repulsion")) sph_group_set_repulsion(group, get_number(map, "repulsion", 0));
   boundary.temperature = get_number(map, "temperature", 0);
   if (motion) {
     int status = add_motion(b, group, motion, &boundary);

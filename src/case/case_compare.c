@@ -101,6 +101,7 @@ static sph_case_distance wanted(const sph_case_node *node)
   sph_case_distance d = {.norm = get_text(node, "norm", "rms"),
                          .offset = get_number(node, "offset", 0),
                          .average = get_number(node, "average", 0),
+                         .by_time = !strcmp(get_text(node, "weight", "points"), "time"),
                          .found = NAN,
                          .window = {-INFINITY, INFINITY},
                          .up_to = get_number(node, "up_to", INFINITY),

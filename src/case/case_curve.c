@@ -85,6 +85,7 @@ typedef struct points {
   const sph_case_curve *run;
   const double *integral;
   double *x, *y, *there; /* [n] */
+  double *weight;        /* [n]; NULL: all the same */
   long n;
 } points;
 
@@ -92,7 +93,7 @@ static double distance_at(const points *p, const sph_case_distance *d, double sh
 {
   for (long i = 0; i < p->n; i++)
     p->there[i] = sph_case_curve_mean(p->run, p->integral, p->x[i] - shift, d->average);
-  return sph_case_curve_norm(d->norm, p->n, NULL, p->there, p->y);
+  return sph_case_curve_norm(d->norm, p->n, p->weight, p->there, p->y);
 }
 
 /* The distance has several minima: a scan, then a golden section around the best. */
@@ -135,6 +136,17 @@ static void choose(points *p, const sph_case_curve *reference, sph_case_distance
     d->largest = fmax(d->largest, y);
   }
   d->used = p->n;
+}
+
+/* Half of the way to the neighbors of each point: the trapezoidal rule.  Points of one time, or out
+ * of order by what digitising does, count as they are apart. */
+static void weigh(points *p)
+{
+  for (long i = 0; p->n > 1 && i < p->n; i++) {
+    const double from = p->x[i > 0 ? i - 1 : 0], to = p->x[i + 1 < p->n ? i + 1 : i];
+    p->weight[i] = fmax(0.5 * (to - from), 0);
+  }
+  if (p->n == 1) p->weight[0] = 1;
 }
 
 static void compare_arrival(const points *p, const sph_case_curve *reference, sph_case_distance *d)
@@ -203,13 +215,16 @@ int sph_case_curve_compare(const sph_case_curve *run, const sph_case_curve *refe
   p.x = SPH_NEW(double, reference->n, "a comparison", error);
   p.y = SPH_NEW(double, reference->n, "a comparison", error);
   p.there = SPH_NEW(double, reference->n, "a comparison", error);
-  int status = integral && p.x && p.y && p.there ? SPH_OK : SPH_ERR_MEMORY;
+  p.weight = d->by_time ? SPH_NEW(double, reference->n, "a comparison", error) : NULL;
+  int status =
+      integral && p.x && p.y && p.there && (p.weight || !d->by_time) ? SPH_OK : SPH_ERR_MEMORY;
   d->value = d->unshifted = d->found = NAN;
   d->shift = 0;
   d->used = d->wanted = 0;
   if (!status) {
     sph_case_curve_integrate(run, integral);
     choose(&p, reference, d);
+    if (p.weight) weigh(&p);
     if (!strcmp(d->norm, "arrival"))
       compare_arrival(&p, reference, d);
     else if (!strcmp(d->norm, "mean"))
@@ -219,6 +234,7 @@ int sph_case_curve_compare(const sph_case_curve *run, const sph_case_curve *refe
     else
       best_shift(&p, d);
   }
+  sph_memory_free(p.weight);
   sph_memory_free(p.there);
   sph_memory_free(p.y);
   sph_memory_free(p.x);

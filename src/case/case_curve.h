@@ -17,6 +17,7 @@ typedef struct sph_case_distance {
   double window[2]; /* x of the reference that count */
   double up_to;     /* largest y of the reference that counts */
   double threshold; /* of arrival */
+  int by_time;      /* rms, l1: a point counts for the time it stands for, not once */
   double one; /* with reference n == 0: the one value (arrival, period: time; decay: 1/time) */
   /* Out: */
   double value;      /* at the best offset; NaN: the curves say nothing */

@@ -10,6 +10,9 @@
 #include "sim_mirror.h"
 #include "sim_run.h"
 
+/* Of walls: what holds blocks of water (tests/property/test_wall_holds.c, docs/walls.md). */
+static const double REPULSION = 0.4;
+
 static int ok(const sph_group *group) { return group && sph_sim_data_ok(group->sim); }
 
 static int good_name(const char *name)
@@ -44,6 +47,7 @@ sph_group *sph_group_create(sph_sim *sim, const char *name, const char *kind)
   snprintf(group->name, sizeof group->name, "%s", name);
   group->sim = sim;
   group->wall = !strcmp(kind, "wall");
+  group->repulsion = REPULSION;
   group->dim = sim->dim;
   group->index = sim->groups;
   for (int field = 0; field < SPH_FIELDS; field++)
@@ -110,6 +114,20 @@ void sph_group_set_boundary(sph_group *group, sph_boundary boundary)
   group->boundary.name = sph_boundary_name(model);
   group->model = (enum sph_wall_model)model;
   group->has_boundary = 1;
+}
+
+void sph_group_set_repulsion(sph_group *group, double epsilon)
+{
+  if (!settable(group, "the repulsion")) return;
+  if (!group->wall)
+    sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s is a fluid: a repulsion is of walls",
+                 group->name);
+  else if (!(epsilon >= 0 && epsilon < INFINITY))
+    sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
+                 "group %s: repulsion %g; right is >= 0 and finite (0.4), or 0: none", group->name,
+                 epsilon);
+  else
+    group->repulsion = epsilon;
 }
 
 /* A property >= 0 and finite, before the run; later where a loop over pairs has such terms. */

@@ -57,6 +57,16 @@ static void material(const sph_sim *sim, const sph_group *i, const sph_group *j,
   k->conduction = 2 * harmonic(i->conductivity, kappa);
 }
 
+/* Not of a gas: it is denser at walls than on its lattice. */
+static void repulsion(const sph_sim *sim, const sph_group *i, const sph_group *j,
+                      fluid_constants *k)
+{
+  const double unit = i->eos.c0 / sim->dx;
+  k->range = 0.8 * sim->dx;
+  if (j->wall && j->model == SPH_MODEL_ADAMI && !i->eos.thermal)
+    k->repulsion = j->repulsion * unit * unit / sim->F_scale;
+}
+
 /* Series of (1 + x)^(1/gamma) - 1 for Fourtakas' diffusion, x = column . r. */
 static void column(const sph_sim *sim, const sph_eos *eos, fluid_constants *k)
 {
@@ -83,6 +93,7 @@ fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part
                        .stress_tension = set->stress_alpha,
                        .stress_pressure = set->stress_beta};
   material(sim, target, source, &k);
+  repulsion(sim, target, source, &k);
   if (k.laminar == 0) k.terms &= ~(unsigned)(SPH_MORRIS | SPH_MCG);
   if (k.conduction == 0) k.terms &= ~(unsigned)SPH_CONDUCTION;
   if ((k.terms & SPH_ARTIFICIAL) && set->beta != 0) k.terms |= SPH_QUADRATIC;

@@ -64,6 +64,7 @@ struct sph_group {
   double placed[3]; /* displacement of a mirror at the last list build [m] */
   int has_eos, has_boundary;
   double viscosity;    /* dynamic [Pa s] */
+  double repulsion;    /* of a wall (term_repulsion.h) */
   double conductivity; /* of heat [W/(m K)] */
   enum sph_energy energy;
   int summed;          /* density is a sum over neighbours, not integrated */

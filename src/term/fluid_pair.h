@@ -126,6 +126,7 @@ typedef struct fluid_constants {
   vec_scalar series[SPH_FOURTAKAS_TERMS];     /* (1/gamma - k)/(k + 1) */
   vec_scalar stress_tension, stress_pressure; /* artificial stress: alpha, beta, */
   vec_scalar inverse_w_dx;                    /* 1/w(dx/h) */
+  vec_scalar repulsion, range;                /* of a wall: term_repulsion.h */
 } fluid_constants;
 enum { SPH_FLUID_NUMBERS = (sizeof(fluid_constants) - sizeof(double)) / sizeof(vec_scalar) };
 

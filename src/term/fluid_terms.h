@@ -7,6 +7,7 @@
 #include "term_continuity.h"
 #include "term_delta.h"
 #include "term_pressure.h"
+#include "term_repulsion.h"
 #include "term_stress_artificial.h"
 #include "term_viscosity_artificial.h"
 #include "term_viscosity_laminar.h"
@@ -20,6 +21,7 @@ BODY void fluid_terms(int dim, int kernel, unsigned terms, pair *p, const fluid_
     term_continuity(terms, p, p->rv, j, sum);
   if ((terms & SPH_PRESSURE_FORCE) && !(terms & SPH_PRESSURE_CORRECTED))
     term_pressure(terms, p, i, j);
+  if ((terms & SPH_PRESSURE_FORCE) && (terms & SPH_WALL)) term_repulsion(dim, p, k, sum);
   if (terms & SPH_ARTIFICIAL) term_viscosity_artificial(terms, p, k, i, j);
   if (terms & SPH_SIGNAL) term_viscosity_signal(terms, p, k, i, j);
   if (terms & SPH_MORRIS) term_viscosity_morris(p, kernel, k, i);

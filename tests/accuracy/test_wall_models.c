@@ -59,6 +59,21 @@ static void channels(void **state)
   channel(0, 0.0035);
 }
 
+/* Adami's no-slip walls, curved: not order 1 (docs/walls.md), and less near the floor of a fixed
+ * h/dx. */
+static void cylinders(void **state)
+{
+  (void)state;
+  const int n = fine() ? 12 : 8;
+  const double coarse = wall_scene_cylinders("adami", n, 1.5);
+  const double error = wall_scene_cylinders("adami", 2 * n, 1.5), order = log2(coarse / error);
+  print_message("# between cylinders, adami, no slip: rms %.2f %% at %d, %.2f %% at %d across, "
+                "order %.2f\n",
+                100 * coarse, n, 100 * error, 2 * n, order);
+  assert_true(order >= 0.9 && order < 1.3);
+  assert_true(error * n <= 0.17); /* 1.32 % at 24 */
+}
+
 /* h is halved where dx is quartered: order 1 in dx is order 2 in h. */
 static void slabs(void **state)
 {
@@ -93,7 +108,7 @@ static void manufactured(void **state)
   }
 }
 
-/* Every particle stays in the tank, short of half a spacing; a mirror: to the last one. */
+/* Every particle stays in the tank; behind a mirror it may be within a step. */
 static void impact(void **state)
 {
   (void)state;
@@ -104,14 +119,14 @@ static void impact(void **state)
     print_message("# impact, %s: %ld of %ld particles lost, least distance to a wall %.2f dx\n",
                   model[k], r.lost, r.particles, r.least);
     assert_int_equal(r.lost, 0);
-    assert_true(r.least >= (k == 2 ? -0.1 : -1));
+    assert_true(r.least >= (k == 2 ? -0.1 : 0));
   }
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(at_rest), cmocka_unit_test(channels),
-                                     cmocka_unit_test(slabs), cmocka_unit_test(manufactured),
-                                     cmocka_unit_test(impact)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(at_rest),      cmocka_unit_test(channels),
+                                     cmocka_unit_test(cylinders),    cmocka_unit_test(slabs),
+                                     cmocka_unit_test(manufactured), cmocka_unit_test(impact)};
   return cmocka_run_group_tests_name("wall models", tests, NULL, NULL);
 }

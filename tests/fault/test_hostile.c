@@ -189,6 +189,14 @@ static void refused_boundary(sph_boundary boundary, const char *word, const char
   sph_sim_free(s.sim);
 }
 
+static void refused_repulsion(int of_fluid, double epsilon, const char *word)
+{
+  small s = make();
+  sph_group_set_repulsion(of_fluid ? s.water : s.floor, epsilon);
+  assert_refused(s.sim, SPH_ERR_ARGUMENT, word, "a repulsion");
+  sph_sim_free(s.sim);
+}
+
 static void materials(void **state)
 {
   (void)state;
@@ -206,6 +214,9 @@ static void materials(void **state)
   refused_eos((sph_eos){0}, "name", "an empty equation of state");
   refused_eos((sph_eos){.name = "mine"}, "mine", "one without functions");
 
+  refused_repulsion(0, -1, "repulsion -1");
+  refused_repulsion(0, NAN, "repulsion nan");
+  refused_repulsion(1, 0.4, "is a fluid");
   refused_boundary((sph_boundary){0}, "adami", "an empty boundary");
   refused_boundary((sph_boundary){.name = "rubber"}, "rubber", "boundary");
   refused_boundary((sph_boundary){.name = "rubber"}, "adami", "boundary: the known ones");
@@ -577,6 +588,7 @@ static void null_simulation(void **state)
   sph_group_jitter(NULL, 0.1, 1);
   sph_group_set_pressure(NULL, NULL);
   sph_group_set_viscosity(NULL, 1), sph_group_set_conductivity(NULL, 1);
+  sph_group_set_repulsion(NULL, 1);
   assert_true(sph_group_viscosity(NULL) == 0 && sph_group_conductivity(NULL) == 0);
   sph_group_set_material(NULL, sph_material_preset("water", 0));
   sph_group_set_material(NULL, sph_material_preset(NULL, 0));

@@ -644,6 +644,11 @@ static void pair_rates(oracle *o, long i, long j, const pair *ij)
   }
   compression(o, wall_j, it, other, ij);
   if (own->dust) return;
+  /* Liquids: a = epsilon (c0/dx)^2 (R/r - 1) r_ij, R = 0.8 dx. */
+  real R = 0.8L * o->dx, c = eos_of(o, i)->kind == ORACLE_IDEAL_GAS ? 0 : eos_of(o, i)->c0;
+  real push = theirs->repulsion * (c / o->dx) * (c / o->dx) * (R / ij->r - 1);
+  for (int k = 0; k < 3 && push > 0 && o->pressure != ORACLE_NONE; k++)
+    it->a[k] += push * ij->d[k], it->a_size += push * R / (R - ij->r) * R;
   if (viscous) viscosity(o, it, other, ij);
   if (viscous && o->signal_alpha > 0) signal_viscosity(o, it, other, ij);
   if (viscous && o->laminar != ORACLE_INVISCID)

@@ -23,6 +23,7 @@ typedef struct oracle_group {
   oracle_eos eos;       /* of a wall: that of the fluid it holds */
   int no_slip;          /* of a wall: viscous terms see it */
   int tension;          /* of a wall: p < 0 is allowed */
+  real repulsion;       /* of a wall, of liquids */
   real rho0;            /* of a wall, at rest [kg/m^3] */
   real viscosity;       /* [Pa s] */
   real conductivity;    /* [W/(m K)] */
@@ -84,7 +85,7 @@ enum oracle_energy {
 typedef struct oracle {
   int dim;
   enum oracle_kernel kernel;
-  real h; /* [m] */
+  real h, dx; /* [m] */
   int periodic[3];
   real length[3]; /* [m] */
   enum oracle_row continuity, pressure;

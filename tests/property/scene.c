@@ -113,6 +113,7 @@ static void groups(scene *s, const scene_def *def)
     oracle_group *group = &s->o.group[g];
     *group = (oracle_group){.wall = g == 2 || g == 3, .dust = g > 3, .tension = def->tension};
     group->no_slip = def->no_slip;
+    group->repulsion = g == 3 ? 0.3L : g == 2 ? 0.1L : 0;
     group->rho0 = rho0_of_all;
     group->eos = def->thermal ? gas : g == 1 ? linear : tait;
     if (def->laminar && !group->dust) {
@@ -137,6 +138,7 @@ void scene_make(scene *s, const scene_def *def)
   *s = (scene){.dx = 0.1, .h_over_dx = h_over_dx, .thermal = def->thermal};
   s->o.dim = def->dim, s->o.kernel = (enum oracle_kernel)def->kernel;
   s->o.h = s->h_over_dx * s->dx;
+  s->o.dx = s->dx;
   for (int k = 0; k < def->dim; k++) {
     cells *= def->n;
     s->o.periodic[k] = def->periodic[k];
@@ -224,6 +226,7 @@ static void add_group(scene *s, sph_sim *sim, int g)
   }
   sph_boundary boundary = o->group[g].no_slip ? sph_boundary_adami_no_slip() : sph_boundary_adami();
   boundary.tension = o->group[g].tension;
+  sph_group_set_repulsion(group, (double)o->group[g].repulsion);
   boundary.temperature = (double)o->group[g].temperature;
   boundary.motion = g == 3 ? move : NULL;
   boundary.ctx = &o->group[g];

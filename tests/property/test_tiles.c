@@ -106,6 +106,7 @@ static void add_fused(sph_sim *sim, int k)
 static scene_rates rates(scene *s, unsigned tiles, scene_options options)
 {
   s->o.group[3].conductivity = 0; /* the lid takes the fluid's: conduction here knows one kappa */
+  s->o.group[2].repulsion = s->o.group[3].repulsion = 0; /* of the fused pressure alone */
   sph_sim *sim = scene_sim(s, options);
   for (int k = 0; k < TERMS; k++) {
     if (all[k].thermal >= 0 && all[k].thermal != s->thermal) continue;

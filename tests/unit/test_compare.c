@@ -82,6 +82,26 @@ static void norms_differ_as_they_should(void **state)
   near(max.value, 7, 1e-9);
 }
 
+/* Weight: time.  Points at 1, 2, 3, 3.1, 3.2, 7: the middle ones stand for little time; the one at
+ * 3.2 that is off by 7 for (7 - 3.1)/2 of 6. */
+static void points_count_for_their_time(void **state)
+{
+  static const double crowded[POINTS] = {1, 2, 3, 3.1, 3.2, 7, 7};
+  (void)state;
+  make(0, 0);
+  for (int k = 0; k < POINTS; k++) ref_x[k] = crowded[k], ref_y[k] = ref_x[k] * ref_x[k];
+  ref_y[4] += 7;
+  sph_case_distance rms = plain("rms"), l1 = plain("l1");
+  rms.by_time = l1.by_time = 1;
+  compare(&rms);
+  compare(&l1);
+  near(rms.value, 7 * sqrt(1.95 / 6), 1e-6);
+  near(l1.value, 7 * 1.95 / 6, 1e-6);
+  rms.window[0] = 3.15, rms.window[1] = 3.25; /* one point alone */
+  compare(&rms);
+  near(rms.value, 7, 1e-6);
+}
+
 static void the_offset_is_found_and_told(void **state)
 {
   (void)state;
@@ -475,6 +495,7 @@ int main(void)
       cmocka_unit_test(windows_choose_the_points),
       cmocka_unit_test(a_run_that_is_too_short_says_so),
       cmocka_unit_test(a_run_without_a_value_is_not_near),
+      cmocka_unit_test(points_count_for_their_time),
       cmocka_unit_test(the_moving_average_is_the_mean),
       cmocka_unit_test(the_mean_of_a_plateau),
       cmocka_unit_test(the_arrival_is_the_first_passage),
