@@ -33,9 +33,8 @@ static const command commands[] = {
      "                         series, pause, stop\n"
      "\n"
      "Exit status: 0 done, 1 failed, 2 bad usage, 3 done, but a comparison misses its bar,\n"
-     "4 stopped by run.time_limit, 130 or 143 stopped by Ctrl-C or SIGTERM (outputs and summary "
-     "are whole then, too, and restart\n"
-     "goes on).\n"},
+     "4 stopped by run.time_limit or before a queue's end, 130 or 143 by Ctrl-C or SIGTERM\n"
+     "(outputs and summary are whole then, too, and restart goes on).\n"},
     {"restart", "DIR", "sUtqblw", sph_prog_restart,
      "go on with a run that was killed, stopped or is to go further",
      "  From the last good checkpoint, with the case that it holds; files go on where they were.\n"

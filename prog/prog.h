@@ -87,6 +87,7 @@ typedef struct prog_progress {
   double tenth;                   /* of the run, told last */
   double deadline;                /* the run is stopped then [s]; 0: never */
   double limit;                   /* the run is stopped before it [s]; 0: never */
+  double queue;                   /* when the queue ends the job [s]; 0: it does not tell */
   double stepped, longest;        /* wall time of the last step, longest step so far [s] */
   double from;                    /* where the run began, or goes on [s] */
   int quiet, live;                /* live: one line that is written over */

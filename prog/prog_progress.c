@@ -2,6 +2,7 @@
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <time.h>
@@ -9,6 +10,9 @@
 
 #include "prog.h"
 #include "prog_live.h"
+
+/* Before a queue ends the job: for the checkpoint, the summary and pictures [s]. */
+static const double QUEUE_MARGIN = 60;
 
 static volatile sig_atomic_t stopped_by;
 
@@ -101,7 +105,18 @@ static int progress(void *ctx, sph_sim *sim)
 
 int sph_prog_progress_over(const prog_progress *p)
 {
-  return p->limit > 0 && p->stepped + 2 * p->longest > p->limit;
+  const double then = p->stepped + 2 * p->longest;
+  return (p->limit > 0 && then > p->limit) || (p->queue != 0 && then + QUEUE_MARGIN > p->queue);
+}
+
+/* Seconds until a queue ends this job, by what Slurm says in the environment; INFINITY: it does
+ * not. */
+static double queue_left(void)
+{
+  const char *text = getenv("SLURM_JOB_END_TIME");
+  char *rest = NULL;
+  const double end = text ? strtod(text, &rest) : 0; /* seconds since 1970 */
+  return rest && rest > text && !*rest && end > 0 ? end - (double)time(NULL) : INFINITY;
 }
 
 void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int quiet)
@@ -113,6 +128,8 @@ void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int qui
                        .quiet = quiet,
                        .live = isatty(STDERR_FILENO)};
   p->stepped = p->start;
+  const double left = queue_left();
+  p->queue = left < INFINITY ? p->start + left : 0;
   p->tenth = floor(10 * p->from / end);
   sigemptyset(&action.sa_mask); /* a second Ctrl-C ends the program at once */
   sigaction(SIGINT, &action, NULL);

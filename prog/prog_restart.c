@@ -24,7 +24,11 @@ static sph_case *case_of(const prog_job *j, const sph_checkpoint_info *info, con
   for (int k = 0; k < j->o->sets; k++) set[n++] = j->o->set[k];
   if (last) set[n++] = last;
   const char *text = info->case_text ? info->case_text : "";
-  return sph_case_read_text(info->case_path, text, strlen(text), n, set, error);
+  char kept[4096];
+  if (faccessat(j->held, "files", F_OK, 0)) /* none is named, or another version wrote it */
+    return sph_case_read_text(info->case_path, text, strlen(text), n, set, error);
+  snprintf(kept, sizeof kept, "%s/case.yml", j->directory);
+  return sph_case_read_text(kept, text, strlen(text), n, set, error);
 }
 
 static int set_end(prog_job *j, const sph_checkpoint_info *info)

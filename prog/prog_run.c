@@ -21,9 +21,13 @@ static void name_directory(prog_job *j)
     snprintf(j->directory, sizeof j->directory, "%.*s%s", length, name, dot ? "" : ".run");
 }
 
+static int failed(const sph_error *error) { return sph_prog_error(PROG_FAILED, "%s", error->text); }
+
 static int write_case(const prog_job *j)
 {
   char path[4096];
+  sph_error error = {0};
+  if (sph_case_files_keep(j->c, j->directory, &error)) return failed(&error);
   snprintf(path, sizeof path, "%s/case.yml", j->directory);
   const char *text = sph_case_text(j->c);
   FILE *file = fopen(path, "wb");
@@ -31,8 +35,6 @@ static int write_case(const prog_job *j)
   bad = (file && fclose(file)) || bad;
   return bad ? sph_prog_error(PROG_FAILED, "cannot write %s: %s", path, strerror(errno)) : PROG_OK;
 }
-
-static int failed(const sph_error *error) { return sph_prog_error(PROG_FAILED, "%s", error->text); }
 
 /* Drifts are told from the start of the run, whichever part of it goes on now. */
 static int keep_start(void *ctx, sph_sim *sim, sph_keep *keep, sph_error *error)

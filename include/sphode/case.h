@@ -50,6 +50,11 @@ SPH_API void sph_case_build_series(const sph_case *c, sph_sim *sim, const char *
 SPH_API void sph_case_build_checkpoints(const sph_case *c, sph_sim *sim, const char *directory,
                                         const char *command);
 
+/* Copies of the files that the case names (tables, surfaces, particles) to directory/files, where a
+ * case in that directory finds them before any others; of those above 64 MB symbolic links.  A
+ * status. */
+SPH_API int sph_case_files_keep(const sph_case *c, const char *directory, sph_error *error);
+
 /* What a finished run in a directory says against the references of the case: *list[*n],
  * sph_case_compare_free.  Comparisons k with solutions in space leave directory/compare_k.csv. */
 SPH_API int sph_case_compare(const sph_case *c, sph_sim *sim, const char *directory,

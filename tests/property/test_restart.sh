@@ -141,6 +141,30 @@ done
 [[ $status == -4 ]] && series limit
 ok $? "a time limit stops it in time, with exit status 4, and it goes on"
 
+# A queue that tells its end in the environment is like a time limit, which leaves a minute for what is behind the last step.
+run 4 queue env SLURM_JOB_END_TIME=$(($(date +%s) + 61)) "$sphode" run "${case[@]}" --set "run.end=6000*T" && [[ -n $(newest queue) ]]
+ok $? "a run stops before its queue ends the job, behind a checkpoint"
+run 4 queue env SLURM_JOB_END_TIME=$(($(date +%s) + 10)) "$sphode" restart out -q && grep -q "goes on from" err
+ok $? "one that starts in its last minute makes a step, and stops"
+run 0 never env SLURM_JOB_END_TIME=never "$sphode" run "${case[@]}" && series never
+ok $? "an end that is no number is none"
+
+# ---- moved
+
+mkdir -p moved/old
+sed 's/^spacing:/tables:\n  push: {file: push.csv}\nspacing:/
+  s/^  gravity: .*/&\n  body-force: {acceleration: [push, 0 m\/s^2]}/' dam.yml >moved/old/push.yml
+printf 't [s],a [m/s^2]\n0,0\n0.1,1\n1,0\n' >moved/old/push.csv
+short=(--set "parameters.dx=H/20" --set "run.end=2*T" --set "checkpoint.steps=$every" -q)
+run 0 moved "$sphode" run old/push.yml -o out "${short[@]}" && cp moved/out/series.csv moved/whole.csv &&
+  cmp moved/old/push.csv moved/out/files/push.csv
+ok $? "results keep the files that the case names"
+mv moved/out moved/elsewhere && rm -r moved/old moved/elsewhere/summary.json && rm -- "$(ls moved/elsewhere/checkpoint_* | tail -n 1)"
+run 0 moved "$sphode" restart elsewhere -q && cmp moved/whole.csv moved/elsewhere/series.csv
+ok $? "a run goes on where the case and its files are gone, and the results elsewhere"
+run 0 moved "$sphode" run elsewhere/case.yml -o again "${short[@]}" && cmp moved/whole.csv moved/again/series.csv
+ok $? "and can be run again from what it kept"
+
 # ---- damaged
 
 [[ $(ls base/out/checkpoint_* | wc -l) == 2 ]]
