@@ -12,6 +12,15 @@ extern "C" {
 typedef void sph_motion(void *ctx, double t, double displacement[3], double velocity[3],
                         double acceleration[3]);
 
+/* Rotation of a wall at time t [s], besides its motion: about the axis through the centre of its
+ * boundary, both carried along by the displacement: turn = angle since the start [rad], angular
+ * velocity [1/s], angular acceleration [1/s^2], right handed.  The angle of a drum that turns in
+ * itself may stay 0. */
+typedef void sph_rotation(void *ctx, double t, double turn[3]);
+
+/* Of a wall's surface at time t [s]: value[n] at the places x[d][n] [m]. */
+typedef void sph_surface(void *ctx, double t, long n, const double *const x[3], double *value);
+
 /* A plane of a mirror, infinite: a point of it [m] and its normal into the fluid, of any length. */
 typedef struct sph_plane {
   double point[3], normal[3];
@@ -29,8 +38,14 @@ typedef struct sph_boundary {
   double heat_flux;   /* of a mirror: heat that enters the fluid [W/m^2]; 0: adiabatic */
   int planes;         /* of a mirror, 1 to SPH_PLANES_MAX; pairwise parallel or at right angles */
   sph_plane plane[SPH_PLANES_MAX];
-  sph_motion *motion;   /* NULL: at rest */
-  void *ctx;            /* the user's; borrowed unless free is given */
+  sph_motion *motion; /* NULL: at rest */
+  /* NULL: no rotation; not of mirrors.  axis: of any length; 0: that of z (in 2D none other is). */
+  sph_rotation *rotation;
+  double centre[3], axis[3]; /* a point of the axis at the start [m]; its direction */
+  /* Where these are given they count in place of the two numbers above: temperature [K] > 0 at the
+   * particles of the wall, of a mirror at the points of its planes; flux [W/m^2] there. */
+  sph_surface *temperature_at, *heat_flux_at;
+  void *ctx;            /* the user's, for all of these; borrowed unless free is given */
   void (*free)(void *); /* called once with ctx; may be NULL */
 } sph_boundary;
 

@@ -78,39 +78,68 @@ static int add_planes(const builder *b, const sph_case_node *shape, sph_boundary
   return SPH_OK;
 }
 
-static int set_displacement(const builder *b, const sph_case_node *list, sph_case_motion *m)
+/* An expression in t and the tables, for dim > 0 in x, y, z, too. */
+static int set_formula(const builder *b, const sph_case_node *node, int dim, const char *what,
+                       sph_case_formula **to)
 {
-  int d = 0;
-  for (const sph_case_node *node = list->first; node && d < 3; node = node->next, d++) {
-    sph_case_value value;
-    m->formula[d] =
-        sph_case_value_formula_create(node->text, b->c->timed, b->c->timed_n, 0, &value);
-    if (!m->formula[d])
-      return sph_case_schema_fail(b->c, b->error, node, 1, value.column, "displacement: %s",
-                                  value.problem);
-  }
-  if (sph_case_motion_begin(m, 1e-5 * sph_case_end(b->c)) == SPH_OK) return SPH_OK;
-  return fail(b, list, "displacement: not finite at t = 0");
+  sph_case_value value;
+  *to = sph_case_value_formula_create(node->text, b->c->timed, b->c->timed_n, dim, &value);
+  if (*to) return SPH_OK;
+  return sph_case_schema_fail(b->c, b->error, node, 1, value.column, "%s: %s", what, value.problem);
 }
 
-/* The boundary takes it along. */
-static int add_motion(builder *b, const sph_group *group, const sph_case_node *motion,
-                      sph_boundary *boundary)
+static int set_motion(const builder *b, const sph_case_node *motion, sph_case_motion *m)
 {
   const sph_case_node *displacement = child_of(motion, "displacement");
-  sph_case_motion *m = SPH_NEW(sph_case_motion, 1, "the motion of a wall", b->error);
-  if (!m) return SPH_ERR_MEMORY;
+  const sph_case_node *angle = child_of(child_of(motion, "rotation"), "angle");
+  const sph_case_node *node = displacement ? displacement->first : NULL;
+  int status = SPH_OK;
   get_vector(motion, "velocity", m->velocity);
   m->slide = get_number(motion, "slide", 0) != 0;
-  int status = displacement ? set_displacement(b, displacement, m) : SPH_OK;
+  m->rate = get_number(child_of(motion, "rotation"), "angular_velocity", 0);
+  for (int d = 0; node && d < 3 && !status; node = node->next, d++)
+    status = set_formula(b, node, 0, "displacement", &m->formula[d]);
+  if (!status && angle) status = set_formula(b, angle, 0, "angle", &m->angle);
+  if (status || sph_case_motion_begin(m, 1e-5 * sph_case_end(b->c)) == SPH_OK) return status;
+  return displacement ? fail(b, displacement, "displacement: not finite at t = 0")
+                      : fail(b, angle, "angle: not finite at t = 0");
+}
+
+/* A constant becomes a number, what changes a formula. */
+static int set_heat(const builder *b, const sph_case_node *node, int dim, double *number,
+                    sph_case_formula **formula)
+{
+  sph_case_value value;
+  if (!node) return SPH_OK;
+  if (sph_case_value_evaluate(node->text, b->c->names, b->c->n, &value))
+    return set_formula(b, node, dim, node->key, formula);
+  *number = value.value;
+  return SPH_OK;
+}
+
+/* What the wall does over time; the boundary takes it along. */
+static int add_motion(builder *b, const sph_group *group, const sph_case_node *map, int dim,
+                      sph_boundary *boundary)
+{
+  const sph_case_node *motion = child_of(map, "motion"), *rotation = child_of(motion, "rotation");
+  sph_case_motion *m = SPH_NEW(sph_case_motion, 1, "the motion of a wall", b->error);
+  if (!m) return SPH_ERR_MEMORY;
+  int status =
+      set_heat(b, child_of(map, "temperature"), dim, &boundary->temperature, &m->temperature);
+  if (!status)
+    status = set_heat(b, child_of(map, "heat_flux"), 0, &boundary->heat_flux, &m->heat_flux);
+  if (!status && motion) status = set_motion(b, motion, m);
   if (status) {
     sph_case_motion_free(m);
     return status;
   }
+  get_vector(rotation, "centre", boundary->centre);
+  get_vector(rotation, "axis", boundary->axis);
+  sph_case_motion_set(boundary, m, motion != NULL, rotation != NULL);
+  if (!motion) return SPH_OK;
   char name[80];
   snprintf(name, sizeof name, "motion.%.64s", sph_group_name(group));
   sph_sim_keep_add(b->sim, (sph_kept){.name = name, .keep = sph_case_motion_keep, .ctx = m});
-  sph_case_motion_set(boundary, m);
   b->motions.of[b->motions.n].group = sph_group_name(group);
   b->motions.of[b->motions.n++].motion = m;
   return SPH_OK;
@@ -118,19 +147,17 @@ static int add_motion(builder *b, const sph_group *group, const sph_case_node *m
 
 static int set_boundary(builder *b, sph_group *group, const sph_case_node *of)
 {
-  const sph_case_node *map = child_of(of, "boundary"), *motion = child_of(map, "motion");
+  const sph_case_node *map = child_of(of, "boundary");
   const sph_case_node *shape = is_mirror(of) ? child_of(of, "shapes")->first : NULL;
   sph_boundary boundary = sph_boundary_adami();
   boundary.name = get_text(map, "model", "adami");
-  boundary.heat_flux = get_number(map, "heat_flux", 0);
   for (int status; shape; shape = shape->next)
     if ((status = add_planes(b, shape->first, &boundary))) return status;
   boundary.no_slip = get_number(map, "no_slip", 0) != 0;
   boundary.tension = get_number(map, "tension", 0) != 0;
   if (child_of(map, "repulsion")) sph_group_set_repulsion(group, get_number(map, "repulsion", 0));
-  boundary.temperature = get_number(map, "temperature", 0);
-  if (motion) {
-    int status = add_motion(b, group, motion, &boundary);
+  if (child_of(map, "motion") || child_of(map, "temperature") || child_of(map, "heat_flux")) {
+    int status = add_motion(b, group, map, is_mirror(of) ? 0 : b->c->dim, &boundary);
     if (status) return status;
   }
   sph_group_set_boundary(group, boundary);

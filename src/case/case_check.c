@@ -133,7 +133,12 @@ static int check_field(sph_case *c, const sph_case_key *key, sph_case_node *node
           ? sph_case_value_field_unit(node->text, c->names, c->n, dim, &value)
           : sph_case_value_formula_unit(node->text, c->timed, c->timed_n, dim, &value))
     return FAIL(node, value.column, "%s: %s", key->name, value.problem);
-  return check_unit(c, key, node, &value);
+  int status = check_unit(c, key, node, &value);
+  if (status || key->low >= key->high ||
+      sph_case_value_evaluate(node->text, c->names, c->n, &value))
+    return status;
+  node->number = value.value; /* a constant after all */
+  return check_range(c, key, node);
 }
 
 static int check_texts(sph_case *c, const sph_case_key *key, sph_case_node *node)
@@ -435,22 +440,42 @@ static int check_tables(sph_case *c)
   return sph_case_table_read_all(c);
 }
 
+static int check_rotation(const sph_case *c, const sph_case_node *rotation)
+{
+  const sph_case_node *rate = sph_case_reader_find(rotation, "angular_velocity");
+  const sph_case_node *angle = sph_case_reader_find(rotation, "angle");
+  const sph_case_node *axis = sph_case_reader_find(rotation, "axis");
+  if (c->dim == 1) return FAIL_KEY(rotation, "rotation: nothing turns in 1D; right is 2D or 3D");
+  if (axis && c->dim == 2) return FAIL_KEY(axis, "rotation: the axis is z in 2D; leave it out");
+  if (!rate && !angle)
+    return FAIL_KEY(rotation, "missing key 'angular_velocity' or 'angle' in rotation");
+  if (rate && angle)
+    return FAIL_KEY(angle, "rotation: found both angular_velocity and angle; one is right");
+  return SPH_OK;
+}
+
 /* A wall moves in one way. */
 static int check_motions(sph_case *c)
 {
   const sph_case_node *groups = sph_case_reader_find(c->root, "groups");
-  for (const sph_case_node *group = groups->first; group; group = group->next) {
+  int status = SPH_OK;
+  for (const sph_case_node *group = groups->first; group && !status; group = group->next) {
     const sph_case_node *motion =
         sph_case_reader_find(sph_case_reader_find(group, "boundary"), "motion");
     const sph_case_node *v = sph_case_reader_find(motion, "velocity");
     const sph_case_node *x = sph_case_reader_find(motion, "displacement");
-    if (motion && !v && !x)
-      return FAIL_KEY(motion, "missing key 'velocity' or 'displacement' in motion");
+    const sph_case_node *rotation = sph_case_reader_find(motion, "rotation");
+    const int slide = sph_case_reader_number(motion, "slide", 0) != 0;
+    if (motion && !v && !x && !rotation)
+      return FAIL_KEY(motion, "missing key 'velocity', 'displacement' or 'rotation' in motion");
     if (v && x) return FAIL_KEY(x, "motion: found both velocity and displacement; one is right");
-    if (x && sph_case_reader_number(motion, "slide", 0) != 0)
+    if (x && slide)
       return FAIL_KEY(x, "motion: a wall that slides has a velocity, not a displacement");
+    if (rotation) status = check_rotation(c, rotation);
+    if (!status && slide && sph_case_reader_find(rotation, "angle"))
+      return FAIL_KEY(rotation, "motion: a wall that slides has an angular velocity, not an angle");
   }
-  return SPH_OK;
+  return status;
 }
 
 int sph_case_check(sph_case *c)

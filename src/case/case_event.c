@@ -28,6 +28,9 @@ static int check_walls(const sph_case *c, const sph_case_node *walls)
     const sph_case_node *group = child_of(child_of(c->root, "groups"), wall->key);
     if (!kind_is(c, wall->key, "wall"))
       return FAIL(wall, "walls: there is no wall '%.60s'", wall->key);
+    if (child_of(wall, "rotation"))
+      return FAIL(child_of(wall, "rotation"),
+                  "walls: an event changes velocities; a rotation goes on as the group has it");
     if (!child_of(child_of(group, "boundary"), "motion"))
       return FAIL(wall,
                   "walls: '%.60s' has no motion to change; give it one, boundary: {motion: "

@@ -1,5 +1,5 @@
-/* case_motion.h -- the motion of a wall: a steady velocity, or a displacement by expressions in t;
- * an event may change it into another steady one. */
+/* case_motion.h -- what a wall does over time: a steady velocity, or a displacement by expressions
+ * in t, which an event may change into another steady one; a rotation; the heat of its surface. */
 #ifndef SPH_CASE_MOTION_H
 #define SPH_CASE_MOTION_H
 #include "case_value.h"
@@ -15,10 +15,13 @@ typedef struct sph_case_motion {
   /* Owned; NULL: a steady velocity.  What they say at t = 0; the step of differences [s]. */
   sph_case_formula *formula[3];
   double start[3], step;
+  sph_case_formula *angle; /* owned; NULL: a steady rate [1/s] */
+  double angle_start, rate;
+  sph_case_formula *temperature, *heat_flux; /* owned; NULL: not by these */
 } sph_case_motion;
 
-/* Takes a boundary along; motion: freed with it. */
-void sph_case_motion_set(sph_boundary *boundary, sph_case_motion *motion);
+/* Takes a boundary along, which moves and turns where asked; motion: freed with it. */
+void sph_case_motion_set(sph_boundary *boundary, sph_case_motion *motion, int moves, int turns);
 void sph_case_motion_free(void *motion);
 /* From here on by its formulas; 0 or a status where one is not finite at t = 0. */
 int sph_case_motion_begin(sph_case_motion *motion, double step);

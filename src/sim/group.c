@@ -84,6 +84,23 @@ void sph_group_set_eos(sph_group *group, sph_eos eos)
   group->has_eos = 1;
 }
 
+/* Takes the axis with length 1. */
+static int take_rotation(const sph_group *group, sph_boundary *b)
+{
+  double *n = b->axis, length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  if (!b->rotation) return SPH_OK;
+  if (length == 0) n[2] = length = 1;
+  if (group->dim == 1 || !(length < INFINITY) || (group->dim == 2 && (n[0] != 0 || n[1] != 0)) ||
+      !isfinite(b->centre[0] + b->centre[1] + b->centre[2]))
+    return sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
+                        "group %s: a rotation in %dD about the axis (%g, %g, %g) through (%g, %g, "
+                        "%g); right is 2D about z or 3D, all finite",
+                        group->name, group->dim, n[0], n[1], n[2], b->centre[0], b->centre[1],
+                        b->centre[2]);
+  for (int d = 0; d < 3; d++) n[d] /= length;
+  return SPH_OK;
+}
+
 void sph_group_set_boundary(sph_group *group, sph_boundary boundary)
 {
   int kept = settable(group, "the boundary");
@@ -104,7 +121,8 @@ void sph_group_set_boundary(sph_group *group, sph_boundary boundary)
                       "group %s: temperature of the boundary %g K; right is > 0 and finite, or 0: "
                       "adiabatic",
                       group->name, boundary.temperature);
-  kept = kept && !sph_sim_mirror_take(group->sim, group, &boundary);
+  kept = kept && !sph_sim_mirror_take(group->sim, group, &boundary) &&
+         !take_rotation(group, &boundary);
   if (!kept) {
     if (boundary.free) boundary.free(boundary.ctx);
     return;

@@ -36,7 +36,7 @@ static unsigned terms_of(const sph_part *part, const sph_group *target, const sp
     return terms | SPH_WALL |
            (source->boundary.no_slip && ((terms & SPH_VISCOUS) || part->tiles) ? SPH_NO_SLIP : 0);
   terms &= ~(unsigned)(SPH_CONDUCTIVITY | SPH_XSPH);
-  if (!(source->boundary.temperature > 0)) terms &= ~(unsigned)SPH_CONDUCTION; /* adiabatic */
+  if (!sph_group_data_isothermal(source)) terms &= ~(unsigned)SPH_CONDUCTION; /* adiabatic */
   if (!source->boundary.no_slip)
     terms &= ~(unsigned)(SPH_VISCOUS | SPH_SWITCHES);
   else if ((terms & SPH_VISCOUS) || part->tiles)
@@ -117,7 +117,7 @@ tile_constants sph_sim_interaction_tile(const sph_evaluation *e, const fluid_con
                       .source = sim->group[source]->name,
                       .slots = (int)sim->sorted[target].stride,
                       .scalars = sim->terms.scalars,
-                      .isothermal = sim->group[source]->boundary.temperature > 0 ||
+                      .isothermal = sph_group_data_isothermal(sim->group[source]) ||
                                     sim->group[source]->model == SPH_MODEL_MIRROR,
                       .fields = part->tile_fields,
                       .adds = part->tile_adds,

@@ -43,7 +43,7 @@ static int is_mirror(const sph_group *group)
 int sph_sim_mirror_take(sph_sim *sim, const sph_group *group, sph_boundary *boundary)
 {
   if (strcmp(boundary->name, "mirror"))
-    return boundary->planes == 0 && boundary->heat_flux == 0
+    return boundary->planes == 0 && boundary->heat_flux == 0 && !boundary->heat_flux_at
                ? SPH_OK
                : sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                               "group %s: planes and a heat flux are of boundary mirror, not of %s",
@@ -52,7 +52,15 @@ int sph_sim_mirror_take(sph_sim *sim, const sph_group *group, sph_boundary *boun
     return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                         "group %s: a mirror of %d planes or more; right is 1 to %d", group->name,
                         boundary->planes, SPH_PLANES_MAX);
-  if (!isfinite(boundary->heat_flux) || (boundary->heat_flux != 0 && boundary->temperature > 0))
+  if (boundary->rotation)
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "group %s: mirrors do not turn; right are adami and dbc", group->name);
+  if (boundary->heat_flux_at && (boundary->temperature > 0 || boundary->temperature_at))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "group %s: a heat flux and a temperature; right is one of them",
+                        group->name);
+  if (!isfinite(boundary->heat_flux) ||
+      (boundary->heat_flux != 0 && (boundary->temperature > 0 || boundary->temperature_at)))
     return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                         "group %s: heat flux %g W/m^2 at %g K; right is one of them, finite",
                         group->name, boundary->heat_flux, boundary->temperature);
@@ -324,6 +332,9 @@ static mirror stand(const sph_evaluation *e, const sph_group *group, int k)
   const sph_boundary *b = &group->boundary;
   mirror m = {.T = b->temperature, .flux = b->heat_flux, .no_slip = b->no_slip};
   double displacement[3] = {0}, a[3] = {0};
+  const double *point = b->plane[k].point, *const at[3] = {point, point + 1, point + 2};
+  if (b->temperature_at) b->temperature_at(b->ctx, e->t, 1, at, &m.T);
+  if (b->heat_flux_at) b->heat_flux_at(b->ctx, e->t, 1, at, &m.flux);
   if (b->motion) b->motion(b->ctx, e->t, displacement, m.v, a);
   for (int d = 0; d < 3; d++) {
     m.normal[d] = b->plane[k].normal[d];

@@ -19,8 +19,9 @@ typedef struct packing {
   double length[3];        /* their size [m] */
   double *const *wall_sum; /* of the extrapolation; NULL for others than adami walls */
   double *const *seen;     /* velocity that viscous terms see of other walls; NULL for fluids */
-  double wall_T;           /* of an isothermal wall [K], else 0 */
-  const double *phi;       /* NULL: another row */
+  double wall_T;           /* of an isothermal wall [K], else 0; where it has T, that counts */
+  int isothermal;
+  const double *phi; /* NULL: another row */
   double *record;
   long stride;
   int scalars; /* in the records: those of pair terms alone */
@@ -39,6 +40,7 @@ static packing packing_of(const sph_evaluation *e, int g)
   if (group->model == SPH_MODEL_DBC) k.seen = e->view[g].v;
   if (group->model == SPH_MODEL_MIRROR) k.seen = group->start;
   k.wall_T = group->boundary.temperature;
+  k.isothermal = sph_group_data_isothermal(group);
   k.phi = sim->sorted[g].phi;
   k.record = sim->sorted[g].record;
   k.stride = sim->sorted[g].stride;
@@ -63,7 +65,8 @@ static double temperature(const packing *k, long s, long i)
 {
   if (!k->wall_sum) return k->view.T ? k->view.T[i] : k->wall_T;
   double W = k->wall_sum[SPH_WALL_W][s];
-  return W > 0 && k->wall_T > 0 ? 2 * k->wall_T - k->wall_sum[SPH_WALL_T][s] / W : 0;
+  const double T = k->view.T ? k->view.T[i] : k->wall_T;
+  return W > 0 && k->isothermal ? 2 * T - k->wall_sum[SPH_WALL_T][s] / W : 0;
 }
 
 /* What only some sets of terms read. */

@@ -92,7 +92,7 @@ static void offer_group(search *s, sph_group *group)
     offer(s, &group->viscosity, 0, "%s.%s", group->name, "viscosity");
   if (group->conductivity > 0 && (terms & SPH_CONDUCTION))
     offer(s, &group->conductivity, 0, "%s.%s", group->name, "conductivity");
-  if (group->wall && group->boundary.temperature > 0)
+  if (group->wall && group->boundary.temperature > 0 && !group->boundary.temperature_at)
     offer(s, &group->boundary.temperature, 0, "%s.%s", group->name, "temperature");
   for (int k = 0; k < EOS_NUMBERS && !group->wall; k++) {
     double *value = number_of(&group->eos, eos_numbers[k].offset);

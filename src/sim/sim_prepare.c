@@ -231,14 +231,18 @@ static int check_walls(sph_sim *sim)
 }
 
 /* Positions may have been written since walls were added: their motion starts there. */
-static void start_walls(sph_sim *sim)
+static int start_walls(sph_sim *sim)
 {
-  for (int g = 0; g < sim->groups; g++) {
+  int status = SPH_OK;
+  for (int g = 0; !status && g < sim->groups; g++) {
     sph_group *group = sim->group[g];
     if (!group->wall || !group->n) continue; /* a mirror has no particles */
     for (int d = 0; d < sim->dim; d++)
       memcpy(group->start[d], group->own[SPH_POSITION][d], (size_t)group->n * sizeof(double));
+    if (group->boundary.temperature_at && sim->needs_temperature)
+      status = sph_group_data_own(group, SPH_TEMPERATURE, &sim->error);
   }
+  return status;
 }
 
 void sph_sim_prepare_h(sph_sim *sim)
@@ -507,8 +511,8 @@ int sph_sim_prepare(sph_sim *sim)
   if (!status) status = check_walls(sim);
   if (!status) status = sph_sim_reset_check(sim);
   if (!status) status = sph_sim_implicit_check(sim);
-  if (!status) start_walls(sim);
   if (!status) status = make_terms(sim);
+  if (!status) status = start_walls(sim);
   if (!status) status = sph_sim_mirror_check(sim);
   if (!status) status = start_groups(sim);
   if (!status) status = make_vectors(sim);

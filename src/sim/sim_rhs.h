@@ -50,11 +50,27 @@ int sph_sim_admit(sph_evaluation *e);                  /* admit */
 
 /* Rates of the particles of group g from its sums. */
 void sph_sim_pairs_rates(sph_evaluation *e, int g);
-/* p, rho, m, c of the particles of wall g from its sums; the force g - a_w that it feels. */
+/* p, rho, m, c of the particles of wall g from its sums. */
 void sph_sim_walls_finish(const sph_evaluation *e, int g);
 /* d rho/dt of dynamic boundary particles: all of it. */
 void sph_sim_walls_rates(sph_evaluation *e, int g);
-void sph_sim_walls_force(const sph_evaluation *e, int g, double g_minus_a[3]);
+
+/* What a wall does at one time: sph_motion, sph_rotation. */
+typedef struct sph_wall_motion {
+  double displacement[3], velocity[3], acceleration[3];
+  int turns; /* else there is nothing below */
+  double centre[3], axis[3], turn[3];
+} sph_wall_motion;
+int sph_sim_walls_moves(const sph_boundary *boundary);
+sph_wall_motion sph_sim_walls_motion(const sph_boundary *boundary, double t);
+/* Place and velocity of what is at `start` where nothing has moved. */
+void sph_sim_walls_at(const sph_wall_motion *motion, int dim, const double *start, double *x,
+                      double *v);
+/* g - a_w at x, without body terms but g: the force that a wall particle there feels. */
+void sph_sim_walls_force(const sph_wall_motion *motion, int dim, const double *g, const double *x,
+                         double *force);
+/* Temperatures of surfaces that change. */
+void sph_sim_walls_heat(sph_evaluation *e);
 /* Cholesky of the dim x dim matrix A - shift I; 0 where it is not positive definite. */
 int sph_sim_gradients_cholesky(int dim, double A[3][3], double shift, double L[3][3]);
 /* Cholesky factor of the gradient matrix at sorted place s, of its sums; 0: the gradient is left

@@ -260,7 +260,7 @@ static void wall(sph_tangent *t, int g)
   const int *order = sph_neighbors_order(sim->neighbors, g);
   positions(t, g);
   clear_sums(t, g);
-  sph_sim_walls_force(&t->e, g, t->g_minus_a[g]);
+  t->motion[g] = sph_sim_walls_motion(&t->sim->group[g]->boundary, t->e.t);
   for (int f = 0; f < sim->groups; f++)
     if (!sim->group[f]->wall && !sim->group[f]->eos.dust)
       sph_sim_tangent_loop(t, SPH_TANGENT_wall, g, f);
@@ -285,6 +285,7 @@ static int walls(sph_tangent *t)
     sph_sim_tangent_call_walls(t, g);
     double T_d = 2 * sph_sim_tangent_call_number(t, &sim->group[g]->boundary.temperature);
     for (long i = 0; i < sim->group[g]->n; i++) t->group[g].point[i].T += T_d;
+    sph_sim_tangent_call_heat(t, g);
   }
   sph_sim_tangent_call_phi(t, 1);
   if (t->e.part->walls) pack_all(t, 1);
@@ -450,7 +451,7 @@ int sph_sim_tangent_base(sph_sim *sim, int part, double t, const double *y, int 
   if (!status) status = sph_sim_gradients(&own->e);
   for (int g = 0; !status && g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
-    if (group->wall) sph_sim_walls_force(&own->e, g, own->g_minus_a[g]);
+    if (group->wall) own->motion[g] = sph_sim_walls_motion(&group->boundary, own->e.t);
     if (group->wall) continue;
     if (own->e.part->eos) slopes(own, g);
     if (own->e.part->gradients && !group->eos.dust) keep_matrix(own, g);

@@ -38,7 +38,7 @@ typedef struct sph_tangent {
   const sph_parameter *theta; /* NULL: none */
   int lagged;                 /* walls and <grad rho> are taken as constant: no two-hop terms */
   sph_tangent_group group[SPH_SETS_MAX];
-  double g_minus_a[SPH_SETS_MAX][3]; /* of walls */
+  sph_wall_motion motion[SPH_SETS_MAX]; /* of walls */
   /* Work of differences, made where there are callbacks or parameters. */
   double *beside[SPH_SETS_MAX]; /* values beside those of a group: [SPH_POINT][capacity] */
   double *beside_rate;          /* rates there, [layout.length] */
@@ -102,6 +102,7 @@ int sph_sim_tangent_call_field(sph_tangent *tangent, int member);
 void sph_sim_tangent_call_phi(sph_tangent *tangent, int walls); /* the user's phi, to the points */
 void sph_sim_tangent_call_tiles(sph_tangent *tangent); /* registered pair terms, to the sums */
 /* Along theta, at fixed state and sums: */
+void sph_sim_tangent_call_heat(sph_tangent *tangent, int g);   /* of its surface, to the points */
 void sph_sim_tangent_call_motion(sph_tangent *tangent, int g); /* of a wall, to the points */
 int sph_sim_tangent_call_eos(sph_tangent *tangent); /* p, c, u, T of fluids, to the points */
 void sph_sim_tangent_call_walls(sph_tangent *tangent, int g); /* p, rho, m, c of a wall, likewise */

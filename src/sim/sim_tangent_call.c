@@ -101,30 +101,48 @@ int sph_sim_tangent_call_eos(sph_tangent *t)
   return acts(t, SPH_ACTS_EOS) && !status ? sph_sim_material_eos(&t->e) : status;
 }
 
-/* Walls move as their callback says. */
+/* Walls move as their callbacks say. */
 void sph_sim_tangent_call_motion(sph_tangent *t, int g)
 {
-  const sph_boundary *boundary = &t->sim->group[g]->boundary;
+  const sph_group *wall = t->sim->group[g];
   const double value = theta_value(t), step = theta_step(t, SMOOTH);
-  double x_d[3] = {0}, v_d[3] = {0};
+  const int dim = t->sim->dim;
   sph_point *point = t->group[g].point;
-  if (!t->theta || !t->theta->is_own || !boundary->motion) return;
+  if (!t->theta || !t->theta->is_own || !sph_sim_walls_moves(&wall->boundary)) return;
+  for (long i = 0; i < wall->n; i++)
+    for (int d = 0; d < dim; d++) point[i].x[d] = point[i].v[d] = 0;
   for (int k = 0; k < POINTS; k++) {
-    double x[3] = {0}, v[3] = {0}, a[3] = {0};
     set_theta(t, value, at[k] * step);
-    boundary->motion(boundary->ctx, t->e.t, x, v, a);
-    for (int d = 0; d < t->sim->dim; d++) {
-      x_d[d] += weight[k] / step * x[d];
-      v_d[d] += weight[k] / step * v[d];
+    const sph_wall_motion m = sph_sim_walls_motion(&wall->boundary, t->e.t);
+    for (long i = 0; i < wall->n; i++) {
+      double start[3] = {0}, x[3], v[3];
+      for (int d = 0; d < dim; d++) start[d] = wall->start[d][i];
+      sph_sim_walls_at(&m, dim, start, x, v);
+      for (int d = 0; d < dim; d++) {
+        point[i].x[d] += weight[k] / step * (x[d] - start[d]);
+        point[i].v[d] += weight[k] / step * v[d];
+      }
     }
   }
   set_theta(t, value, 0);
-  for (long i = 0; i < t->sim->group[g]->n; i++)
-    for (int d = 0; d < t->sim->dim; d++) {
-      point[i].x[d] = x_d[d];
-      point[i].v[d] = v_d[d];
-      point[i].extra[d] = 2 * v_d[d]; /* as slip_velocity of sim_pairs.c */
-    }
+  for (long i = 0; i < wall->n; i++)
+    for (int d = 0; d < dim; d++) point[i].extra[d] = 2 * point[i].v[d]; /* slip_velocity */
+}
+
+/* 2 T - <T_fluid> where T is that of a callback. */
+void sph_sim_tangent_call_heat(sph_tangent *t, int g)
+{
+  const double value = theta_value(t), step = theta_step(t, SMOOTH);
+  const sph_view *view = &t->e.view[g];
+  if (!t->theta || !t->theta->is_own || !view->T || !t->sim->group[g]->boundary.temperature_at)
+    return;
+  for (int k = 0; k < POINTS; k++) {
+    set_theta(t, value, at[k] * step);
+    sph_sim_walls_heat(&t->e);
+    for (long i = 0; i < view->n; i++) t->group[g].point[i].T += 2 * weight[k] / step * view->T[i];
+  }
+  set_theta(t, value, 0);
+  sph_sim_walls_heat(&t->e);
 }
 
 void sph_sim_tangent_call_walls(sph_tangent *t, int g)

@@ -113,15 +113,17 @@ void sph_sim_tangent_map_wall(const sph_local *k, const double *in, double *out)
   const double dW = in[SPH_WALL_W] / W;
   for (int d = 0; d < sim->dim; d++)
     to->extra[d] -= in[SPH_WALL_V + d] / W - sum[SPH_WALL_V + d][k->s] / W * dW;
-  if (wall->boundary.temperature > 0) to->T -= in[SPH_WALL_T] / W - sum[SPH_WALL_T][k->s] / W * dW;
+  if (sph_group_data_isothermal(wall)) to->T -= in[SPH_WALL_T] / W - sum[SPH_WALL_T][k->s] / W * dW;
   if (eos->thermal) {
     u = sum[SPH_WALL_U][k->s] / W;
     du = in[SPH_WALL_U] / W - u * dW;
   }
   if (p != 0 || wall->boundary.tension) { /* else it was cut */
     dp = in[SPH_WALL_P] / W - p * dW;
-    for (int d = 0; d < sim->dim; d++)
-      dp += k->tangent->g_minus_a[wall->index][d] * in[SPH_WALL_RHO_R + d] / W;
+    double x[3] = {0}, g_minus_a[3];
+    for (int d = 0; d < sim->dim; d++) x[d] = view->x[d][k->i];
+    sph_sim_walls_force(&k->tangent->motion[wall->index], sim->dim, sim->terms.g, x, g_minus_a);
+    for (int d = 0; d < sim->dim; d++) dp += g_minus_a[d] * in[SPH_WALL_RHO_R + d] / W;
   }
   double p_rho, p_u, c_rho, c_u, drho = 0;
   sph_eos_slopes(eos, 1, &rho, &u, &p_rho, &p_u, &c_rho, &c_u);

@@ -18,12 +18,61 @@
 
 enum { PARALLEL_MIN = 512 };
 
-static void motion(const sph_group *wall, double t, double displacement[3], double velocity[3],
-                   double acceleration[3])
+int sph_sim_walls_moves(const sph_boundary *b) { return b->motion || b->rotation; }
+
+sph_wall_motion sph_sim_walls_motion(const sph_boundary *b, double t)
 {
-  for (int d = 0; d < 3; d++) displacement[d] = velocity[d] = acceleration[d] = 0;
-  if (wall->boundary.motion)
-    wall->boundary.motion(wall->boundary.ctx, t, displacement, velocity, acceleration);
+  sph_wall_motion m = {.turns = b->rotation != NULL};
+  if (b->motion) b->motion(b->ctx, t, m.displacement, m.velocity, m.acceleration);
+  if (!m.turns) return m;
+  b->rotation(b->ctx, t, m.turn);
+  for (int d = 0; d < 3; d++) {
+    m.centre[d] = b->centre[d] + m.displacement[d];
+    m.axis[d] = b->axis[d];
+  }
+  return m;
+}
+
+static void cross(const double a[3], const double b[3], double c[3])
+{
+  c[0] = a[1] * b[2] - a[2] * b[1];
+  c[1] = a[2] * b[0] - a[0] * b[2];
+  c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/* Rodrigues: x = centre + r_n + cos(angle) (r - r_n) + sin(angle) n x r,  v = v + omega n x r. */
+void sph_sim_walls_at(const sph_wall_motion *m, int dim, const double *start, double *x, double *v)
+{
+  double r[3] = {0}, n_r[3], along = 0;
+  for (int d = 0; d < dim; d++) {
+    x[d] = start[d] + m->displacement[d];
+    v[d] = m->velocity[d];
+  }
+  if (!m->turns) return;
+  for (int d = 0; d < dim; d++) r[d] = x[d] - m->centre[d];
+  for (int d = 0; d < 3; d++) along += m->axis[d] * r[d];
+  cross(m->axis, r, n_r);
+  const double c = cos(m->turn[0]), s = sin(m->turn[0]);
+  for (int d = 0; d < 3; d++) r[d] = along * m->axis[d] * (1 - c) + c * r[d] + s * n_r[d];
+  cross(m->axis, r, n_r);
+  for (int d = 0; d < dim; d++) {
+    x[d] = m->centre[d] + r[d];
+    v[d] += m->turn[1] * n_r[d];
+  }
+}
+
+/* a_w = a + d omega/dt n x r + omega^2 n x (n x r) */
+void sph_sim_walls_force(const sph_wall_motion *m, int dim, const double *g, const double *x,
+                         double *force)
+{
+  double r[3] = {0}, n_r[3], n_n_r[3];
+  for (int d = 0; d < 3; d++) force[d] = g[d] - m->acceleration[d];
+  if (!m->turns) return;
+  for (int d = 0; d < dim; d++) r[d] = x[d] - m->centre[d];
+  cross(m->axis, r, n_r);
+  cross(m->axis, n_r, n_n_r);
+  for (int d = 0; d < dim; d++)
+    force[d] -= m->turn[2] * n_r[d] + m->turn[1] * m->turn[1] * n_n_r[d];
 }
 
 int sph_sim_walls_move(sph_evaluation *e)
@@ -32,28 +81,49 @@ int sph_sim_walls_move(sph_evaluation *e)
   for (int g = 0; g < sim->groups && e->part->lists; g++) {
     const sph_group *wall = sim->group[g];
     if (wall->wall && wall->model == SPH_MODEL_MIRROR) sph_sim_mirror_place(e, g);
-    if (!wall->wall || wall->model == SPH_MODEL_MIRROR || !wall->boundary.motion) continue;
-    double displacement[3], velocity[3], acceleration[3];
-    motion(wall, e->t, displacement, velocity, acceleration);
-    for (int d = 0; d < sim->dim; d++)
-      for (long i = 0; i < wall->n; i++) {
-        e->view[g].x[d][i] = wall->start[d][i] + displacement[d];
-        e->view[g].v[d][i] = velocity[d];
+    if (!wall->wall || wall->model == SPH_MODEL_MIRROR || !sph_sim_walls_moves(&wall->boundary))
+      continue;
+    const sph_wall_motion m = sph_sim_walls_motion(&wall->boundary, e->t);
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (wall->n > PARALLEL_MIN)
+    for (long i = 0; i < wall->n; i++) {
+      double start[3] = {0}, x[3], v[3];
+      for (int d = 0; d < sim->dim; d++) start[d] = wall->start[d][i];
+      sph_sim_walls_at(&m, sim->dim, start, x, v);
+      for (int d = 0; d < sim->dim; d++) {
+        e->view[g].x[d][i] = x[d];
+        e->view[g].v[d][i] = v[d];
       }
+    }
   }
   return SPH_OK;
+}
+
+void sph_sim_walls_heat(sph_evaluation *e)
+{
+  for (int g = 0; g < e->sim->groups; g++) {
+    const sph_group *wall = e->sim->group[g];
+    const sph_view *view = &e->view[g];
+    if (!wall->wall || wall->model == SPH_MODEL_MIRROR || !view->T ||
+        !wall->boundary.temperature_at)
+      continue;
+    wall->boundary.temperature_at(wall->boundary.ctx, e->t, view->n, (const double *const *)view->x,
+                                  view->T);
+  }
 }
 
 /* One wall particle at sorted place s, from its sums.  A part of f that knows no pressure has none
  * here either: what the last evaluation left would count, if only in the last bit of m/rho. */
 static void fill(const sph_evaluation *e, const sph_group *wall, long s, long i,
-                 const double g_minus_a[3])
+                 const sph_wall_motion *motion)
 {
   const sph_sim *sim = e->sim;
   const sph_view *view = &e->view[wall->index];
   double *const *sum = sim->sorted[wall->index].sum;
   double W = e->part->eos ? sum[SPH_WALL_W][s] : 0, p = 0, u = 0;
   if (W > 0) {
+    double x[3] = {0}, g_minus_a[3];
+    for (int d = 0; d < sim->dim; d++) x[d] = view->x[d][i];
+    sph_sim_walls_force(motion, sim->dim, sim->terms.g, x, g_minus_a);
     p = sum[SPH_WALL_P][s];
     // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): dim <= 3
     for (int d = 0; d < sim->dim; d++) p += g_minus_a[d] * sum[SPH_WALL_RHO_R + d][s];
@@ -73,22 +143,14 @@ static void fill(const sph_evaluation *e, const sph_group *wall, long s, long i,
   view->p[i] = p;
 }
 
-void sph_sim_walls_force(const sph_evaluation *e, int g, double g_minus_a[3])
-{
-  double displacement[3], velocity[3], acceleration[3];
-  motion(e->sim->group[g], e->t, displacement, velocity, acceleration);
-  for (int d = 0; d < 3; d++) g_minus_a[d] = e->sim->terms.g[d] - acceleration[d];
-}
-
 void sph_sim_walls_finish(const sph_evaluation *e, int g)
 {
   const sph_sim *sim = e->sim;
   const sph_group *wall = sim->group[g];
   const int *order = sph_neighbors_order(sim->neighbors, g);
-  double g_minus_a[3];
-  sph_sim_walls_force(e, g, g_minus_a);
+  const sph_wall_motion m = sph_sim_walls_motion(&wall->boundary, e->t);
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (wall->n > 512)
-  for (long s = 0; s < wall->n; s++) fill(e, wall, s, order[s], g_minus_a);
+  for (long s = 0; s < wall->n; s++) fill(e, wall, s, order[s], &m);
 }
 
 /* ---- dynamic boundary particles ---- */
@@ -149,6 +211,7 @@ int sph_sim_walls_fill(sph_evaluation *e)
       sph_wall_loop(sim->isa, sim->kernel_number, sim->dim, sim->loop_terms & SPH_THERMAL ? 1 : 0);
   sph_sim_material_phi(e, 0);
   sph_sim_pairs_pack(e, 0);
+  if (e->part->walls) sph_sim_walls_heat(e);
   for (int g = 0; g < sim->groups && e->part->walls; g++) {
     if (!sim->group[g]->wall) continue;
     if (sim->group[g]->model == SPH_MODEL_MIRROR) sph_sim_mirror_fill(e, g);

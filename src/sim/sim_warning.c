@@ -37,7 +37,7 @@ static void find_in_terms(sph_finder *f, const sph_term_set *terms)
 static void find_in_wall(sph_finder *f, const sph_sim *sim, const sph_group *wall)
 {
   const unsigned bits = sim->terms.bits;
-  if (wall->boundary.temperature > 0 && !(bits & SPH_CONDUCTION))
+  if (sph_group_data_isothermal(wall) && !(bits & SPH_CONDUCTION))
     sph_sim_warning_found(f, "wall %s has a temperature, but there is no conduction", wall->name);
   if (wall->boundary.no_slip && !(bits & SPH_VISCOUS) && !sim->terms.pairs)
     sph_sim_warning_found(f, "wall %s is no-slip, but there is no viscous term to feel it",

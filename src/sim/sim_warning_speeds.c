@@ -3,6 +3,7 @@
  * known, the weight of the liquid, and the density at the start. */
 #include <math.h>
 
+#include "sim_rhs.h"
 #include "sim_warning.h"
 
 static const double MACH = 0.1, WEIGHT = 0.01, START = 0.03, ROUNDING = 1e-6;
@@ -42,6 +43,23 @@ static double head(const sph_sim *sim, const sph_group *fluid)
   return high >= low && g2 > 0 ? high - low + sqrt(g2) * sim->dx : 0;
 }
 
+/* Largest distance of a wall's particles from its axis, as they are. */
+static double reach(const sph_group *wall)
+{
+  const double *n = wall->boundary.axis;
+  double most = 0;
+  for (long i = 0; i < wall->n; i++) {
+    double r2 = 0, along = 0;
+    for (int d = 0; d < wall->dim; d++) {
+      const double r = sph_group_read(wall, "position", d)[i] - wall->boundary.centre[d];
+      r2 += r * r;
+      along += n[d] * r;
+    }
+    most = fmax(most, r2 - along * along);
+  }
+  return sqrt(most);
+}
+
 /* Largest speed of the walls over the time in which sound of speed c crosses a hundred times the
  * largest extent of their particles, and who it is. */
 static double walls(const sph_sim *sim, double c, const char **name)
@@ -60,11 +78,12 @@ static double walls(const sph_sim *sim, double c, const char **name)
     }
   for (int g = 0; g < sim->groups; g++) {
     const sph_boundary *wall = &sim->group[g]->boundary;
-    if (!sim->group[g]->wall || !wall->motion) continue;
+    if (!sim->group[g]->wall || !sph_sim_walls_moves(wall)) continue;
     for (int k = 0; k < SAMPLES; k++) {
-      double x[3] = {0}, v[3] = {0}, a[3] = {0};
-      wall->motion(wall->ctx, sim->time + k * (100 * size / c) / SAMPLES, x, v, a);
-      const double speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+      const sph_wall_motion m =
+          sph_sim_walls_motion(wall, sim->time + k * (100 * size / c) / SAMPLES);
+      const double *v = m.velocity, turning = fabs(m.turn[1]) * reach(sim->group[g]);
+      const double speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + turning;
       if (speed > most) *name = sim->group[g]->name, most = speed;
     }
   }

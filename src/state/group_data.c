@@ -38,6 +38,11 @@ static int always(const struct sph_group *group, int field)
          field != SPH_ENTHALPY;
 }
 
+int sph_group_data_isothermal(const struct sph_group *group)
+{
+  return group->wall && (group->boundary.temperature > 0 || group->boundary.temperature_at);
+}
+
 int sph_group_data_own(struct sph_group *group, int field, sph_error *error)
 {
   for (int c = 0; c < sph_group_data_components(group->dim, field); c++) {

@@ -88,6 +88,8 @@ typedef struct sph_view {
 
 /* Field number of the energy that the group integrates, or -1. */
 int sph_group_data_energy(const struct sph_group *group);
+/* A wall whose surface has a temperature? */
+int sph_group_data_isothermal(const struct sph_group *group);
 /* An array of its own for a field that has none yet, zero. */
 int sph_group_data_own(struct sph_group *group, int field, sph_error *error);
 /* Number of components of a field in dim dimensions. */

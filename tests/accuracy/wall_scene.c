@@ -178,16 +178,11 @@ static void share_rings(sph_group *group, double dx)
   }
 }
 
-/* The inner cylinder turns with this angular velocity [1/s]; its particles are moved by a term, not
- * by sph_motion, which knows translations: their velocity is written once, and they stay. */
-static void turn(sph_group *wall, double omega)
+/* The inner cylinder turns, one radian a second. */
+static void turn(void *ctx, double t, double turn[3])
 {
-  const double *x = sph_group_read(wall, "position", 0), *y = sph_group_read(wall, "position", 1);
-  double *vx = sph_group_write(wall, "velocity", 0), *vy = sph_group_write(wall, "velocity", 1);
-  for (long i = 0; vx && vy && i < sph_group_count(wall); i++) {
-    vx[i] = -omega * y[i];
-    vy[i] = omega * x[i];
-  }
+  (void)ctx;
+  turn[0] = t, turn[1] = 1, turn[2] = 0;
 }
 
 static double cylinders_error(const sph_group *water)
@@ -220,10 +215,10 @@ double wall_scene_cylinders(const char *model, int n, double h_over_dx)
   add_rings(outer, 2, 0, deep, dx);
   sph_group_set_eos(water, sph_eos_tait(rho0, 10, 7));
   sph_group_set_viscosity(water, rho0);
-  sph_group_set_boundary(inner, plate);
   sph_group_set_boundary(outer, plate);
+  plate.rotation = turn;
+  sph_group_set_boundary(inner, plate);
   share_rings(water, dx);
-  turn(inner, 1);
   sph_sim_add_term(sim, sph_term_continuity());
   sph_sim_add_term(sim, sph_term_pressure());
   sph_sim_add_term(sim, sph_term_viscosity_laminar("morris"));

@@ -221,6 +221,62 @@ static void walls_follow_expressions(void **state)
   sph_sim_free(sim);
 }
 
+/* A wall that turns and whose surface is warmed, by expressions. */
+static const char drum[] =
+    "dimension: 2\nspacing: 0.1\nparameters: {w: 2 1/s}\n"
+    "groups:\n"
+    "  water: {kind: fluid, density: 1000, energy: temperature, specific_heat: 4000, conductivity: "
+    "1,\n"
+    "    eos: {linear: {sound_speed: 10}}, initial: {temperature: 300 K},\n"
+    "    shapes: [{box: {lower: [0, 0], upper: [1, 1]}}]}\n"
+    "  drum: {kind: wall, density: 1000, shapes: [{box: {lower: [3, 0], upper: [3.3, 1]}}],\n"
+    "    boundary: {temperature: %s,\n"
+    "      motion: {velocity: [1, 0], rotation: {centre: [3, 0], %s}}}}\n"
+    "terms: {continuity: , pressure: , conduction: }\nrun: {end: 2}\n";
+
+static void write_drum(const char *temperature, const char *rotation)
+{
+  char text[2000];
+  snprintf(text, sizeof text, drum, temperature, rotation);
+  put("moved.yml", text);
+}
+
+static void walls_turn(void **state)
+{
+  double turn[3], T[2];
+  const double at[2][2] = {{1, 2}, {3, 4}}, *const x[3] = {at[0], at[1]};
+  (void)state;
+  write_drum("300 K + 5 K/m*x*sin(w*t)", "angle: 30 deg + 1*sin(w*t)");
+  sph_sim *sim = build_moved();
+  const sph_boundary *b = &sph_sim_group(sim, "drum")->boundary;
+  assert_true(b->centre[0] == 3 && b->centre[1] == 0 && b->axis[2] == 1);
+  for (double t = 0; t < 2; t += 0.17) {
+    b->rotation(b->ctx, t, turn);
+    assert_near(turn[0], sin(2 * t), 1e-15);
+    assert_near(turn[1], 2 * cos(2 * t), 1e-10);
+    assert_near(turn[2], -4 * sin(2 * t), 1e-5);
+    b->temperature_at(b->ctx, t, 2, x, T);
+    assert_near(T[0], 300 + 5 * sin(2 * t), 1e-12);
+    assert_near(T[1], 300 + 10 * sin(2 * t), 1e-12);
+  }
+  sph_sim_free(sim);
+  write_drum("310 K", "angular_velocity: -w");
+  sim = build_moved();
+  b = &sph_sim_group(sim, "drum")->boundary;
+  b->rotation(b->ctx, 1.5, turn);
+  assert_true(turn[0] == -3 && turn[1] == -2 && turn[2] == 0);
+  assert_true(!b->temperature_at && b->temperature == 310);
+  sph_sim_free(sim);
+  write_drum("310 K", "angle: 1/t");
+  refused("moved.yml", "moved.yml:10:68: angle: found 1/s, wanted a plain number");
+  write_drum("-w*3 K*1 s", "angle: t*w");
+  refused("moved.yml", "moved.yml:9:29: temperature: found -6 K; must be > 0");
+  write_drum("310 K", "angle: t*w, axis: [1, 0]");
+  refused("moved.yml", "moved.yml:10:73: rotation: the axis is z in 2D; leave it out");
+  write_drum("310 K", "angle: t*w, angular_velocity: w");
+  refused("moved.yml", "moved.yml:10:61: rotation: found both angular_velocity and angle");
+}
+
 static void walls_follow_tables(void **state)
 {
   double x[3];
@@ -319,6 +375,7 @@ int main(void)
       cmocka_unit_test(lists_of_files_in_their_order),
       cmocka_unit_test(what_is_wrong_is_told_in_its_file),
       cmocka_unit_test(walls_follow_expressions),
+      cmocka_unit_test(walls_turn),
       cmocka_unit_test(walls_follow_tables),
       cmocka_unit_test(forces_follow_tables),
       cmocka_unit_test(tables_that_are_none),
