@@ -111,7 +111,7 @@ static void add_field(table *t, const sph_field_info *info, const near_by *row)
     if (value) sph_text_add(&t->text, "%.15g", value[row->i]);
     if (!row)
       sph_text_add(&t->text, "%s%s%.*s [%s]", place ? "" : info->name,
-                   info->vector && !place ? "_" : "", info->vector ? 1 : 0, "xyz" + d,
+                   info->vector && !place ? "_" : "", info->vector ? 1 : 0, &"xyz"[d],
                    mass ? sph_units_get(SPH_UNIT_MASS, sim->dim) : info->unit);
   }
 }
