@@ -57,7 +57,7 @@ program dam_break
     call sph_sim_add_term(sim, sph_term_gravity([0.0_c_double, -g, 0.0_c_double]))
   end if
 
-  call sph_sim_set_integrator(sim, sph_integrator_def(method=c_loc(method), cfl=0.8_c_double))
+  call sph_sim_set_integrator(sim, sph_integrator_def(method=c_loc(method)))
   call sph_sim_add_output(sim, sph_output_hdf5("dam_break"//c_null_char, 0.05_c_double))
 
   t = 1.2_c_double*sqrt(H/g)

@@ -24,7 +24,7 @@ sph_wall_motion sph_sim_walls_motion(const sph_boundary *b, double t)
 {
   sph_wall_motion m = {.turns = b->rotation != NULL};
   if (b->motion) b->motion(b->ctx, t, m.displacement, m.velocity, m.acceleration);
-  if (!m.turns) return m;
+  if (!b->rotation) return m;
   b->rotation(b->ctx, t, m.turn);
   for (int d = 0; d < 3; d++) {
     m.centre[d] = b->centre[d] + m.displacement[d];
