@@ -224,7 +224,8 @@ int sph_integrator_limit(sph_integrator *it, double t, N_Vector y)
       it->limit = limit.dt[k];
       it->cause = k;
     }
-  if (it->def.dt_min == 0 && it->limit < INFINITY) it->def.dt_min = BLOWN_UP * it->limit;
+  if (it->def.dt_min == 0 && it->limit < INFINITY && !(it->def.dt_fixed > 0))
+    it->def.dt_min = BLOWN_UP * it->limit;
   return status;
 }
 
