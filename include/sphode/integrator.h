@@ -78,8 +78,8 @@ typedef struct sph_integrator_def {
    * step grows by 5 at most (the first by 10), and shrinks to 0.1 at least. */
   const char *controller;
   double dt_max; /* [s]; 0: no limit */
-  /* A smaller step is a failure [s]; 0: 1e-5 of the first limit (none with dt_fixed), which error control may go below
-   * in 20 steps one after another. */
+  /* A smaller step is a failure [s]; 0: 1e-5 of the first limit (none with dt_fixed), which error
+   * control may go below in 20 steps one after another. */
   double dt_min;
   double dt_fixed; /* > 0: this step always, limits are not obeyed, nothing is halved [s] */
   int retries;     /* halvings after a step that is not admissible before giving up; 0: 12 */
