@@ -50,11 +50,11 @@ SPH_API void sph_group_set_boundary(sph_group *group, sph_boundary boundary);
  * kappa [W/(m K)] of a fluid or a wall (0: that of the fluid), >= 0 and finite; default 0.  Before
  * the run, or between steps and in the change of an event, if a term asked for it at the start. */
 SPH_API void sph_group_set_viscosity(sph_group *group, double eta);
+SPH_API void sph_group_set_conductivity(sph_group *group, double kappa);
 /* Of a wall of boundary adami: liquids are held off by 1/2 epsilon c0^2 (0.8 - r/dx)^2 [J/kg] for
  * each wall particle nearer than 0.8 dx.  Default: 0.4; 0: none, and water creeps in.  Before the
  * run (docs/theory.md, Walls). */
 SPH_API void sph_group_set_repulsion(sph_group *group, double epsilon);
-SPH_API void sph_group_set_conductivity(sph_group *group, double kappa);
 /* Which energy a fluid integrates: "u" (internal), "total" (u + v^2/2), "entropy" (A = p/rho^gamma,
  * ideal gas), "temperature" (needs eos.c_v) or "none".  Default: "u" for a thermal equation of
  * state, else "none".  A liquid whose pressure does not depend on it may carry u or temperature

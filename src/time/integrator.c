@@ -14,8 +14,8 @@
 #include "relax.h"
 
 static const double CLOSE = 1e-6; /* relative: such step sizes are the same */
-/* A liquid's limits fall by ten in an impact, by a hundred at most; a run whose steps have become
- * so much shorter than the first limit that there was has blown up. */
+/* A run whose steps have become so much shorter than the first limit that there was has blown up:
+ * far below what an impact asks for. */
 static const double BLOWN_UP = 1e-5;
 enum { SMALL_STEPS = 20 };
 
