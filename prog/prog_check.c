@@ -37,6 +37,13 @@ static int warnings(const sph_case *c, const sph_sim *sim)
   return n + m;
 }
 
+static void print_events(const sph_case *c)
+{
+  char text[400];
+  for (int k = 0; sph_case_event_text(c, k, text, sizeof text); k++)
+    printf("event        %s\n", text);
+}
+
 /* A place for the outputs of the trial, which show what is wrong with probes and monitors. */
 static int make_stage(char stage[STAGE])
 {
@@ -109,6 +116,7 @@ static int try_out(const prog_options *o, const sph_case *c, sph_sim *sim, const
 {
   printf("%s\n\n", sph_case_title(c));
   print_groups(sim);
+  print_events(c);
   int n = warnings(c, sim), status = picture(o, c, sim);
   if (status) return status;
   sph_case_build_series(c, sim, stage);

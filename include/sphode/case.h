@@ -32,9 +32,12 @@ SPH_API sph_sim *sph_case_build(const sph_case *c, int threads, sph_error *error
 /* Do the parts of terms fit the integrator that the case names?  Else a run of that simulation
  * fails; here the place in the file is told.  Another integrator may be set for it. */
 SPH_API int sph_case_check_parts(const sph_case *c, sph_error *error);
-/* Keys that do nothing without their partner, as heat_flux without conduction: warning k = 0, 1,
- * ... written to text[size]; 0: there is none. */
+/* Keys that do nothing without their partner, as heat_flux without conduction, events behind the end
+ * of the run, periods longer than it: warning k = 0, 1, ... written to text[size]; 0: there is none.
+ */
 SPH_API int sph_case_warning(const sph_case *c, int k, char *text, size_t size);
+/* What event k = 0, 1, ... of the case waits for, does and changes, in one line; 0: there is none. */
+SPH_API int sph_case_event_text(const sph_case *c, int k, char *text, size_t size);
 /* The integrator that the case names, as its simulation has it; its strings live as long as c. */
 SPH_API void sph_case_build_integrator(const sph_case *c, sph_integrator_def *def);
 /* The outputs of the case, into a directory; command: the command line, kept in the snapshots;
@@ -72,9 +75,11 @@ SPH_API int sph_case_compare_plot(const sph_case *c, int k, const char *director
                                   size_t size, sph_error *error);
 
 SPH_API const char *sph_case_title(const sph_case *c);
-SPH_API const char *
-sph_case_text(const sph_case *c); /* as read, with the --set lines as comments */
-SPH_API const char *sph_case_source(const sph_case *c);     /* as read, without them */
+/* Read again, both give a case: text this one, as it is with what was set (which stands in comments
+ * in front, too); source as it was without.  Of several files they are joined; where something was
+ * set, text has no other comments of the file. */
+SPH_API const char *sph_case_text(const sph_case *c);
+SPH_API const char *sph_case_source(const sph_case *c);
 SPH_API const char *sph_case_set(const sph_case *c, int k); /* what was set; NULL behind the last */
 SPH_API double sph_case_end(const sph_case *c);             /* [s] */
 SPH_API double sph_case_time_limit(const sph_case *c);      /* wall time [s]; 0: none */

@@ -6,6 +6,7 @@
 
 #include "memory.h"
 #include "sphode/event.h"
+#include "text.h"
 
 #define get_text sph_case_reader_text
 #define get_number sph_case_reader_number
@@ -80,6 +81,25 @@ static int check_axis(const sph_case *c, const sph_case_node *axis)
                     c->dim == 1 ? "" : "s");
 }
 
+/* J, in 2D J/m, in 1D J/m^2. */
+static int check_level(const sph_case *c, const sph_case_node *level)
+{
+  static const char *const unit[] = {"J/m^2", "J/m", "J"};
+  sph_case_value value;
+  double off = 0, dimension = 0;
+  char got[80];
+  if (!level || sph_case_value_evaluate(level->text, c->names, c->n, &value)) return SPH_OK;
+  const double energy[SPH_CASE_BASES] = {1, c->dim - 1, -2};
+  for (int b = 0; b < SPH_CASE_BASES; b++) {
+    dimension += fabs(value.power[b]);
+    off += fabs(value.power[b] - energy[b]);
+  }
+  if (dimension == 0 || off < 1e-6) return SPH_OK;
+  sph_case_unit_write(value.power, got, sizeof got);
+  return FAIL_VALUE(level, "level: found %s, wanted %s, an energy in %d dimension%s", got,
+                    unit[c->dim - 1], c->dim, c->dim == 1 ? "" : "s");
+}
+
 int sph_case_event_check(const sph_case *c)
 {
   const sph_case_node *events = child_of(c->root, "events");
@@ -89,6 +109,8 @@ int sph_case_event_check(const sph_case *c)
     const sph_case_node *change = child_of(e, "change");
     status = check_group(c, child_of(front, "group"));
     if (!status) status = check_axis(c, child_of(front, "axis"));
+    if (!status)
+      status = check_level(c, child_of(child_of(child_of(e, "when"), "energy"), "level"));
     if (!status && change) status = check_change(c, change);
   }
   return status;
@@ -223,6 +245,87 @@ static int add_event(const sph_case *c, sph_sim *sim, const sph_case_motions *mo
   sph_sim_add_event(sim, &event);
   if (sph_sim_status(sim) == SPH_OK) return SPH_OK;
   return sph_case_schema_fail(c, error, map, 0, 0, "%s", sph_sim_error(sim));
+}
+
+/* ---- in words */
+
+static void add_numbers(sph_text *text, const sph_case_node *node)
+{
+  const sph_case_node *one = node->kind == SPH_CASE_LIST ? node->first : NULL;
+  if (!one) sph_text_add(text, "%g", node->number);
+  for (; one; one = one->next)
+    sph_text_add(text, "%s%g%s", one == node->first ? "(" : ", ", one->number,
+                 one->next ? "" : ")");
+}
+
+static void tell_occasion(sph_text *text, const sph_case *c, const sph_case_node *when)
+{
+  static const char *const unit[] = {"J/m^2", "J/m", "J"};
+  const sph_case_node *what = when->first;
+  if (!strcmp(what->key, "front"))
+    sph_text_add(text, "the front of %s passes %s = %g m", get_text(what, "group", "all fluids"),
+                 get_text(what, "axis", "x"), get_number(what, "at", 0));
+  else if (!strcmp(what->key, "energy"))
+    sph_text_add(text, "the %s energy passes %g %s", get_text(what, "quantity", "total"),
+                 get_number(what, "level", 0), unit[c->dim - 1]);
+  else if (!strcmp(what->key, "steady"))
+    sph_text_add(text, "the rates pass %g 1/s", what->number);
+  else if (!strcmp(what->key, "time"))
+    sph_text_add(text, "t = %g s", what->number);
+  else {
+    add_numbers(text, what);
+    sph_text_add(text, " m becomes %s", what->key);
+  }
+}
+
+/* Of a term: what stands there, and what comes. */
+static void tell_strength(sph_text *text, const sph_case *c, const sph_case_node *next)
+{
+  static const char *const of[] = {"acceleration", "omega", "alpha", "epsilon", "delta"};
+  const sph_case_node *term = child_of(child_of(c->root, "terms"), next->key), *now = NULL;
+  for (int k = 0; k < 5 && !now; k++) now = child_of(term, of[k]);
+  sph_text_add(text, ", %s ", next->key);
+  if (now) add_numbers(text, now);
+  sph_text_add(text, " -> ");
+  add_numbers(text, next);
+}
+
+static void tell_change(sph_text *text, const sph_case *c, const sph_case_node *change)
+{
+  for (const sph_case_node *next = change ? change->first : NULL; next; next = next->next) {
+    if (!is_group(next->key)) {
+      tell_strength(text, c, next);
+      continue;
+    }
+    for (const sph_case_node *group = next->first; group; group = group->next)
+      for (const sph_case_node *key = group->first; key; key = key->next) {
+        if (key->origin && !strcmp(key->origin, "default")) continue;
+        sph_text_add(text, ", %s of %s -> ", key->key, group->key);
+        add_numbers(text, key);
+      }
+  }
+}
+
+int sph_case_event_text(const sph_case *c, int k, char *to, size_t size)
+{
+  const sph_case_node *events = c ? child_of(c->root, "events") : NULL;
+  const sph_case_node *e = events && k >= 0 ? events->first : NULL;
+  for (; e && k > 0; k--) e = e->next;
+  if (!e) return 0;
+  sph_text text = {0}, does = {0};
+  const char *direction = get_text(e, "direction", "");
+  if (get_number(e, "snapshot", 0) != 0) sph_text_add(&does, ", snapshot");
+  tell_change(&does, c, child_of(e, "change"));
+  if (get_number(e, "stop", 0) != 0) sph_text_add(&does, ", stop");
+  sph_text_add(&text, "%s: ", e->key);
+  tell_occasion(&text, c, child_of(e, "when"));
+  sph_text_add(&text, "%s%s%s: %s", *direction ? ", " : "", direction,
+               get_number(e, "once", 0) != 0 ? ", once" : "",
+               does.data ? does.data + 2 : "a row of events.csv");
+  if (size) snprintf(to, size, "%s", text.data ? text.data : "");
+  sph_text_free(&text);
+  sph_text_free(&does);
+  return 1;
 }
 
 int sph_case_event_add(const sph_case *c, sph_sim *sim, const sph_case_motions *motions,

@@ -1,4 +1,5 @@
-/* Keys that do nothing without their partner: right, but hardly what was meant. */
+/* Keys that do nothing without their partner, events that never happen, periods longer than the run:
+ * right, but hardly what was meant. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -75,11 +76,13 @@ static void look_at_group(finder *f, const sph_case_node *group, const sph_case_
   without(f, boundary, "no_slip", viscous, "a viscosity among the terms");
   const char *model = get_text(boundary, "model", "adami");
   without(f, boundary, "heat_flux", !strcmp(model, "mirror") || !conduction, "model: mirror");
+  without(f, boundary, "repulsion", !strcmp(model, "adami"), "model: adami");
   int filled = 0;
   for (const sph_case_node *shape = child_of(group, "shapes")->first; shape; shape = shape->next)
     filled |= strcmp(shape->first->key, "file") && strcmp(shape->first->key, "layers") &&
               strcmp(shape->first->key, "plane");
   without(f, group, "lattice", filled, "a shape that is filled; file and layers have their own");
+  without(f, group, "packing", filled, "a shape that is filled; file and layers have their own");
 }
 
 static void look_at_integrator(finder *f, const sph_case_node *map)
@@ -106,6 +109,39 @@ static void look_at_comparisons(finder *f, const sph_case_node *list)
   }
 }
 
+static void look_at_events(finder *f, const sph_case_node *events, double end)
+{
+  for (const sph_case_node *e = events ? events->first : NULL; e; e = e->next) {
+    const sph_case_node *time = child_of(child_of(e, "when"), "time");
+    if (!time) continue;
+    if (time->number > end)
+      found(f, time, "event %.60s never happens: the run ends at t = %g s", e->key, end);
+    if (time->number == 0)
+      found(f, time, "event %.60s never happens: the run begins there; an event is what it passes",
+            e->key);
+    if (!strcmp(get_text(e, "direction", "rising"), "falling"))
+      found(f, child_of(e, "direction"), "event %.60s never happens: time rises", e->key);
+    without(f, e, "samples", 0, "something to search; a time is known");
+  }
+}
+
+static void look_at_period(finder *f, const sph_case_node *map, const char *key, double end)
+{
+  const sph_case_node *node = given(map, key);
+  if (node && node->number > end)
+    found(f, node, "%g s is longer than the run of %g s", node->number, end);
+}
+
+static void look_at_periods(finder *f, const sph_case_node *root, double end)
+{
+  const sph_case_node *output = child_of(root, "output"), *probes = child_of(output, "probes");
+  look_at_period(f, output, "snapshots", end);
+  look_at_period(f, output, "series", end);
+  for (const sph_case_node *p = probes ? probes->first : NULL; p; p = p->next)
+    look_at_period(f, p, "interval", end);
+  look_at_period(f, child_of(root, "checkpoint"), "interval", end);
+}
+
 int sph_case_warning(const sph_case *c, int k, char *text, size_t size)
 {
   finder f = {.c = c, .wanted = k, .text = text, .size = size};
@@ -116,5 +152,7 @@ int sph_case_warning(const sph_case *c, int k, char *text, size_t size)
     look_at_group(&f, g, terms);
   look_at_integrator(&f, child_of(c->root, "integrator"));
   look_at_comparisons(&f, child_of(c->root, "compare"));
+  look_at_events(&f, child_of(c->root, "events"), sph_case_end(c));
+  look_at_periods(&f, c->root, sph_case_end(c));
   return f.found > k;
 }

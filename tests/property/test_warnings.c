@@ -198,6 +198,46 @@ static void thin_walls(void **state)
   warned(&k, 0, NULL);
 }
 
+/* A front that has come further, points that are wet and dry already: told, with what is there;
+ * what is still to come is not, nor what both directions wait for. */
+static void events(void **state)
+{
+  const sph_event to_come[] = {
+      {.name = "a", .type = "front", .threshold = 1.5},
+      {.name = "b", .type = "front", .threshold = 0.5, .direction = "falling"},
+      {.name = "c", .type = "front", .threshold = 0.5, .direction = "both"},
+      {.name = "d", .type = "wet", .x = {1.5, 0.5}},
+      {.name = "e", .type = "dry", .x = {0.5, 0.5}},
+      {.name = "f", .type = "energy", .threshold = -1e9, .quantity = "total"},
+      {.name = "g", .type = "steady", .threshold = 1},
+      {.name = "h", .type = "time", .threshold = 1}};
+  const sph_event passed[] = {{.name = "k", .type = "front", .threshold = 0.5},
+                              {.name = "l", .type = "wet", .x = {0.5, 0.5}},
+                              {.name = "m", .type = "dry", .x = {1.5, 0.5}},
+                              {.name = "n",
+                               .type = "energy",
+                               .threshold = -1e9,
+                               .quantity = "total",
+                               .direction = "rising"}};
+  static const char *const says[][2] = {{"event k: its front is 1 m", "above 0.5 m already"},
+                                        {"event l: its point is wet when the run begins", ""},
+                                        {"event m: its point is dry when the run begins", ""},
+                                        {"event n: its energy is", "above -1e+09 J already"}};
+  const tank k = sound();
+  char text[300] = "";
+  (void)state;
+  sph_sim *sim = make(&k);
+  for (size_t n = 0; n < sizeof to_come / sizeof *to_come; n++) sph_sim_add_event(sim, &to_come[n]);
+  for (size_t n = 0; n < sizeof passed / sizeof *passed; n++) sph_sim_add_event(sim, &passed[n]);
+  if (sph_sim_evaluate(sim)) fail_msg("%s", sph_sim_error(sim));
+  for (int n = 0; n < 4; n++) {
+    assert_int_equal(sph_sim_warning(sim, n, text, sizeof text), 1);
+    if (!strstr(text, says[n][0]) || !strstr(text, says[n][1])) fail_msg("\"%s\"", text);
+  }
+  if (sph_sim_warning(sim, 4, text, sizeof text)) fail_msg("also: \"%s\"", text);
+  sph_sim_free(sim);
+}
+
 /* ---- the cases that come along */
 
 /* Those that have a warning, meant so: the patch is drawn out to almost twice dx; the standing wave
@@ -253,7 +293,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(none),       cmocka_unit_test(range),     cmocka_unit_test(mach),
       cmocka_unit_test(pressure),   cmocka_unit_test(neighbors), cmocka_unit_test(thin_body),
-      cmocka_unit_test(thin_walls), cmocka_unit_test(shipped),
+      cmocka_unit_test(thin_walls), cmocka_unit_test(events),    cmocka_unit_test(shipped),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
