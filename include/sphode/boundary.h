@@ -43,7 +43,7 @@ typedef struct sph_boundary {
   sph_rotation *rotation;
   double centre[3], axis[3]; /* a point of the axis at the start [m]; its direction */
   /* Where these are given they count in place of the two numbers above: temperature [K] > 0 at the
-   * particles of the wall, of a mirror at the points of its planes; flux [W/m^2] there. */
+   * particles of the wall, of a mirror where its planes reflect particles; flux [W/m^2] there. */
   sph_surface *temperature_at, *heat_flux_at;
   void *ctx;            /* the user's, for all of these; borrowed unless free is given */
   void (*free)(void *); /* called once with ctx; may be NULL */

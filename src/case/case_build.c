@@ -106,28 +106,27 @@ static int set_motion(const builder *b, const sph_case_node *motion, sph_case_mo
 }
 
 /* A constant becomes a number, what changes a formula. */
-static int set_heat(const builder *b, const sph_case_node *node, int dim, double *number,
+static int set_heat(const builder *b, const sph_case_node *node, double *number,
                     sph_case_formula **formula)
 {
   sph_case_value value;
   if (!node) return SPH_OK;
   if (sph_case_value_evaluate(node->text, b->c->names, b->c->n, &value))
-    return set_formula(b, node, dim, node->key, formula);
+    return set_formula(b, node, b->c->dim, node->key, formula);
   *number = value.value;
   return SPH_OK;
 }
 
 /* What the wall does over time; the boundary takes it along. */
-static int add_motion(builder *b, const sph_group *group, const sph_case_node *map, int dim,
+static int add_motion(builder *b, const sph_group *group, const sph_case_node *map,
                       sph_boundary *boundary)
 {
   const sph_case_node *motion = child_of(map, "motion"), *rotation = child_of(motion, "rotation");
   sph_case_motion *m = SPH_NEW(sph_case_motion, 1, "the motion of a wall", b->error);
   if (!m) return SPH_ERR_MEMORY;
-  int status =
-      set_heat(b, child_of(map, "temperature"), dim, &boundary->temperature, &m->temperature);
+  int status = set_heat(b, child_of(map, "temperature"), &boundary->temperature, &m->temperature);
   if (!status)
-    status = set_heat(b, child_of(map, "heat_flux"), 0, &boundary->heat_flux, &m->heat_flux);
+    status = set_heat(b, child_of(map, "heat_flux"), &boundary->heat_flux, &m->heat_flux);
   if (!status && motion) status = set_motion(b, motion, m);
   if (status) {
     sph_case_motion_free(m);
@@ -157,7 +156,7 @@ static int set_boundary(builder *b, sph_group *group, const sph_case_node *of)
   boundary.tension = get_number(map, "tension", 0) != 0;
   if (child_of(map, "repulsion")) sph_group_set_repulsion(group, get_number(map, "repulsion", 0));
   if (child_of(map, "motion") || child_of(map, "temperature") || child_of(map, "heat_flux")) {
-    int status = add_motion(b, group, map, is_mirror(of) ? 0 : b->c->dim, &boundary);
+    int status = add_motion(b, group, map, &boundary);
     if (status) return status;
   }
   sph_group_set_boundary(group, boundary);
@@ -186,7 +185,10 @@ static int add_plain(const builder *b, sph_group *group, const sph_case_node *sh
   get_vector(shape, "upper", upper);
   for (int d = 0; d < b->c->dim && strcmp(shape->key, "ball"); d++)
     if (!(upper[d] > lower[d]))
-      return fail(b, shape, "upper must be above lower in each direction");
+      return sph_case_schema_fail(b->c, b->error, child_of(shape, "upper"), 1, 0,
+                                  "upper: found %c = %g m, with lower %g m; upper above lower is "
+                                  "right",
+                                  'x' + d, upper[d], lower[d]);
   if (!strcmp(shape->key, "ball")) {
     get_vector(shape, "centre", centre);
     sph_group_add_ball(group, centre, get_number(shape, "radius", 0), density);
@@ -285,7 +287,6 @@ static int set_hydrostatic(const builder *b, sph_group *group, const sph_case_no
 {
   const char *axis = get_text(map, "axis", NULL);
   int up = axis ? axis_of(axis) : b->c->dim - 1;
-  if (up >= b->c->dim) return fail(b, map, "there is no such axis in this dimension");
   double surface = get_number(map, "surface", 0), g = get_number(map, "gravity", 0);
   if (child_of(map, "pressure"))
     sph_group_set_column(group, up, surface, get_number(map, "pressure", 0), g);

@@ -45,24 +45,22 @@ static void turn_to(void *ctx, double t, double turn[3])
   if (m->angle) differences(m->angle, m->angle_start, m->step, t, &turn[0], &turn[1], &turn[2]);
 }
 
-/* Not finite, or no temperature: not a number, and the run says where. */
+/* Not finite: not a number, and the run says where. */
 static void surface(sph_case_formula *formula, double t, long n, const double *const x[3],
-                    double *value, double least)
+                    double *value)
 {
   if (sph_case_value_formula_at(formula, n, x, t, value))
     for (long i = 0; i < n; i++) value[i] = NAN;
-  for (long i = 0; i < n; i++)
-    if (!(value[i] > least)) value[i] = NAN;
 }
 
 static void temperature_at(void *ctx, double t, long n, const double *const x[3], double *value)
 {
-  surface(((const sph_case_motion *)ctx)->temperature, t, n, x, value, 0);
+  surface(((const sph_case_motion *)ctx)->temperature, t, n, x, value);
 }
 
 static void heat_flux_at(void *ctx, double t, long n, const double *const x[3], double *value)
 {
-  surface(((const sph_case_motion *)ctx)->heat_flux, t, n, x, value, -INFINITY);
+  surface(((const sph_case_motion *)ctx)->heat_flux, t, n, x, value);
 }
 
 void sph_case_motion_free(void *motion)

@@ -4,7 +4,8 @@
  *   r_g = r - 2 [(r - x_b).n] n,   V_g = V, c, u and the like as of its fluid particle,
  *   v_g = v - 2 [(v - v_b).n] n;   in viscous terms of a no-slip wall 2 v_b - v,
  *   p_g = p + rho (g - a_b).(r_g - r),   rho_g = rho + (p_g - p)/c^2 of a liquid,
- *   T_g = 2 T_b - T (isothermal), T + 2 d q/kappa (flux q into the fluid), T (adiabatic).
+ *   T_g = 2 T_b - T (isothermal), T + 2 d q/kappa (flux q into the fluid), T (adiabatic),
+ *   T_b and q those at the foot of the perpendicular, r - d n.
  *
  * Morris, Fox & Zhu (1997); Colagrossi & Landrini (2003).  rho_g goes on with the column at rest,
  * as p_g does: with rho_g = rho density diffusion would see a kink at the wall.  Ghosts are made
@@ -24,7 +25,6 @@ enum { PARALLEL_MIN = 1024 };
 /* A plane where it stands at the time of an evaluation. */
 typedef struct mirror {
   double point[3], normal[3], v[3], force[3]; /* v_b; g - a_b */
-  double T, flux;
   int no_slip;
 } mirror;
 
@@ -62,7 +62,8 @@ int sph_sim_mirror_take(sph_sim *sim, const sph_group *group, sph_boundary *boun
   if (!isfinite(boundary->heat_flux) ||
       (boundary->heat_flux != 0 && (boundary->temperature > 0 || boundary->temperature_at)))
     return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
-                        "group %s: heat flux %g W/m^2 at %g K; right is one of them, finite",
+                        "group %s: a heat flux of %g W/m^2 and a temperature of %g K; right is one "
+                        "of them, finite",
                         group->name, boundary->heat_flux, boundary->temperature);
   for (int k = 0; k < boundary->planes; k++) {
     double *n = boundary->plane[k].normal, length = sqrt(dot(n, n));
@@ -330,11 +331,8 @@ void sph_sim_mirror_find(sph_sim *sim)
 static mirror stand(const sph_evaluation *e, const sph_group *group, int k)
 {
   const sph_boundary *b = &group->boundary;
-  mirror m = {.T = b->temperature, .flux = b->heat_flux, .no_slip = b->no_slip};
+  mirror m = {.no_slip = b->no_slip};
   double displacement[3] = {0}, a[3] = {0};
-  const double *point = b->plane[k].point, *const at[3] = {point, point + 1, point + 2};
-  if (b->temperature_at) b->temperature_at(b->ctx, e->t, 1, at, &m.T);
-  if (b->heat_flux_at) b->heat_flux_at(b->ctx, e->t, 1, at, &m.flux);
   if (b->motion) b->motion(b->ctx, e->t, displacement, m.v, a);
   for (int d = 0; d < 3; d++) {
     m.normal[d] = b->plane[k].normal[d];
@@ -427,24 +425,21 @@ void sph_sim_mirror_place(const sph_evaluation *e, int g)
   for (long i = 0; i < group->n; i++) place(e, &all, group, i);
 }
 
-/* Pressure and temperature of the image: the column goes on, the surface has what it is given. */
-static void go_on(const sph_evaluation *e, const mirrors *all, const sph_ghost *ghost, double *p,
-                  double *T)
+/* Pressure of the image: the column goes on. */
+static double pressure(const sph_evaluation *e, const mirrors *all, const sph_ghost *ghost)
 {
   const sph_view *parent = &e->view[ghost->group];
   const double rho = parent->rho[ghost->parent];
-  const double kappa = e->sim->group[ghost->group]->conductivity;
-  double x[3];
+  double x[3], p = parent->p[ghost->parent];
   take(e->sim->dim, parent->x, ghost->parent, x);
   for (int k = 0; k < ghost->planes; k++) {
     const mirror *m = &all->of[ghost->in[k].group][ghost->in[k].plane];
     double d = 0;
     for (int c = 0; c < 3; c++) d += (x[c] - m->point[c]) * m->normal[c];
-    *p -= rho * 2 * d * dot(m->force, m->normal);
-    if (m->T > 0) *T = 2 * m->T - *T;
-    if (m->flux != 0 && kappa > 0) *T += 2 * d * m->flux / kappa;
+    p -= rho * 2 * d * dot(m->force, m->normal);
     reflect(m->normal, m->point, x);
   }
+  return p;
 }
 
 static void fill(const sph_evaluation *e, const mirrors *all, const sph_group *group, long i)
@@ -454,25 +449,119 @@ static void fill(const sph_evaluation *e, const mirrors *all, const sph_group *g
   const sph_view *parent = &e->view[ghost->group], *own = &e->view[group->index];
   const long j = ghost->parent;
   const int eos = e->part->eos; /* else there is no pressure */
-  double p = eos ? parent->p[j] : 0, before = p, T = parent->T ? parent->T[j] : 0;
+  const double p = eos ? pressure(e, all, ghost) : 0, before = eos ? parent->p[j] : 0;
   const double c = eos ? parent->c[j] : 0, rho = parent->rho[j];
-  go_on(e, all, ghost, &p, &T);
-  own->p[i] = eos ? p : 0;
+  own->p[i] = p;
   own->c[i] = c;
   own->rho[i] = rho;
   if (eos && !fluid->eos.thermal && c > 0) own->rho[i] += (p - before) / (c * c);
   own->m[i] = parent->m[j] * (own->rho[i] / rho);
   own->u[i] = parent->u ? parent->u[j] : 0;
-  if (own->T) own->T[i] = T;
 }
 
-void sph_sim_mirror_fill(const sph_evaluation *e, int g)
+enum { CHUNK = 256 };
+
+/* Some images of a group: where each is so far, reflection by reflection, and its temperature. */
+typedef struct chunk {
+  const sph_evaluation *e;
+  const mirrors *all;
+  const sph_ghost *ghost;
+  int n, status;
+  double x[3][CHUNK], T[CHUNK];
+} chunk;
+
+/* What the surface of a mirror is given, at places on it; 1: a temperature, 0: a flux, or 0. */
+static int given(const sph_boundary *b, double t, long n, double x[3][CHUNK], double value[CHUNK])
+{
+  const double *const at[3] = {x[0], x[1], x[2]};
+  const int isothermal = b->temperature_at || b->temperature > 0;
+  sph_surface *surface = b->temperature_at ? b->temperature_at : b->heat_flux_at;
+  for (long i = 0; i < n; i++) value[i] = isothermal ? b->temperature : b->heat_flux;
+  if (surface) surface(b->ctx, t, n, at, value);
+  return isothermal;
+}
+
+/* Reflection k of those images whose it is at mirror m. */
+static void reflect_heat(chunk *c, const sph_group *m, int k)
+{
+  double foot[3][CHUNK], distance[CHUNK], value[CHUNK];
+  int of[CHUNK], n = 0;
+  for (int i = 0; i < c->n; i++) {
+    if (k >= c->ghost[i].planes || c->ghost[i].in[k].group != m->index) continue;
+    const mirror *plane = &c->all->of[m->index][c->ghost[i].in[k].plane];
+    double d = 0;
+    for (int a = 0; a < 3; a++) d += (c->x[a][i] - plane->point[a]) * plane->normal[a];
+    for (int a = 0; a < 3; a++) {
+      foot[a][n] = c->x[a][i] - d * plane->normal[a];
+      c->x[a][i] -= 2 * d * plane->normal[a];
+    }
+    distance[n] = d;
+    of[n++] = i;
+  }
+  if (!n) return;
+  const int isothermal = given(&m->boundary, c->e->t, n, foot, value);
+  for (int j = 0; j < n && !c->status; j++) {
+    const double at[3] = {foot[0][j], foot[1][j], foot[2][j]};
+    c->status = sph_sim_walls_surface(c->e, m, !isothermal, value[j], at);
+  }
+  for (int j = 0; j < n; j++) {
+    double *T = &c->T[of[j]];
+    const double kappa = c->e->sim->group[c->ghost[of[j]].group]->conductivity;
+    if (isothermal)
+      *T = 2 * value[j] - *T;
+    else if (kappa > 0)
+      *T += 2 * distance[j] * value[j] / kappa;
+  }
+}
+
+static void warm(chunk *c, double *T)
+{
+  for (int i = 0; i < c->n; i++) {
+    const sph_view *parent = &c->e->view[c->ghost[i].group];
+    double x[3];
+    take(c->e->sim->dim, parent->x, c->ghost[i].parent, x);
+    for (int a = 0; a < 3; a++) c->x[a][i] = x[a];
+    c->T[i] = parent->T ? parent->T[c->ghost[i].parent] : 0;
+  }
+  for (int k = 0; k < 3; k++)
+    for (int g = 0; g < c->e->sim->groups; g++)
+      if (is_mirror(c->e->sim->group[g])) reflect_heat(c, c->e->sim->group[g], k);
+  memcpy(T, c->T, (size_t)c->n * sizeof *T);
+}
+
+/* Functions are the user's, and called by one thread. */
+static int calls(const sph_sim *sim)
+{
+  int any = 0;
+  for (int g = 0; g < sim->groups; g++)
+    any |= is_mirror(sim->group[g]) &&
+           (sim->group[g]->boundary.temperature_at || sim->group[g]->boundary.heat_flux_at);
+  return any;
+}
+
+static int warm_all(const sph_evaluation *e, const mirrors *all, const sph_group *group)
+{
+  double *T = e->view[group->index].T;
+  int status = SPH_OK;
+  const int alone = group->n <= PARALLEL_MIN || calls(e->sim);
+#pragma omp parallel for num_threads(e->sim->threads) schedule(static) if (!alone)
+  for (long i = 0; i < group->n; i += CHUNK) {
+    chunk c = {.e = e, .all = all, .ghost = group->ghost + i};
+    c.n = group->n - i < CHUNK ? (int)(group->n - i) : CHUNK;
+    warm(&c, T + i);
+    if (alone && !status) status = c.status; /* numbers were right from the start */
+  }
+  return status;
+}
+
+int sph_sim_mirror_fill(const sph_evaluation *e, int g)
 {
   const sph_group *group = e->sim->group[g];
   mirrors all;
   stand_all(e, &all);
 #pragma omp parallel for num_threads(e->sim->threads) schedule(static) if (group->n > PARALLEL_MIN)
   for (long i = 0; i < group->n; i++) fill(e, &all, group, i);
+  return e->view[g].T ? warm_all(e, &all, group) : SPH_OK;
 }
 
 /* ---- between steps ---- */

@@ -70,7 +70,11 @@ void sph_sim_walls_at(const sph_wall_motion *motion, int dim, const double *star
 void sph_sim_walls_force(const sph_wall_motion *motion, int dim, const double *g, const double *x,
                          double *force);
 /* Temperatures of surfaces that change. */
-void sph_sim_walls_heat(sph_evaluation *e);
+int sph_sim_walls_heat(sph_evaluation *e);
+/* Is that a temperature [K], or (heats) a flux [W/m^2], of the surface of a wall at x[3]?  Else
+ * SPH_RETRY, with it as the reason. */
+int sph_sim_walls_surface(const sph_evaluation *e, const sph_group *wall, int heats, double value,
+                          const double x[3]);
 /* Cholesky of the dim x dim matrix A - shift I; 0 where it is not positive definite. */
 int sph_sim_gradients_cholesky(int dim, double A[3][3], double shift, double L[3][3]);
 /* Cholesky factor of the gradient matrix at sorted place s, of its sums; 0: the gradient is left

@@ -98,8 +98,19 @@ int sph_sim_walls_move(sph_evaluation *e)
   return SPH_OK;
 }
 
-void sph_sim_walls_heat(sph_evaluation *e)
+int sph_sim_walls_surface(const sph_evaluation *e, const sph_group *wall, int heats, double value,
+                          const double x[3])
 {
+  if (isfinite(value) && (heats || value > 0)) return SPH_OK;
+  return sph_sim_admit_retry(
+      e->sim, "wall %s: %s of its surface is %g %s at (%g, %g, %g) m, t = %g s; right is %s",
+      wall->name, heats ? "the heat flux" : "the temperature", value, heats ? "W/m^2" : "K", x[0],
+      x[1], x[2], e->t, heats ? "a finite one" : "> 0");
+}
+
+int sph_sim_walls_heat(sph_evaluation *e)
+{
+  int status = SPH_OK;
   for (int g = 0; g < e->sim->groups; g++) {
     const sph_group *wall = e->sim->group[g];
     const sph_view *view = &e->view[g];
@@ -108,7 +119,14 @@ void sph_sim_walls_heat(sph_evaluation *e)
       continue;
     wall->boundary.temperature_at(wall->boundary.ctx, e->t, view->n, (const double *const *)view->x,
                                   view->T);
+    for (long i = 0; i < view->n && !status; i++) {
+      double x[3] = {0};
+      if (view->T[i] > 0 && view->T[i] < INFINITY) continue;
+      for (int d = 0; d < e->sim->dim; d++) x[d] = view->x[d][i];
+      status = sph_sim_walls_surface(e, wall, 0, view->T[i], x);
+    }
   }
+  return status;
 }
 
 /* One wall particle at sorted place s, from its sums.  A part of f that knows no pressure has none
@@ -211,10 +229,10 @@ int sph_sim_walls_fill(sph_evaluation *e)
       sph_wall_loop(sim->isa, sim->kernel_number, sim->dim, sim->loop_terms & SPH_THERMAL ? 1 : 0);
   sph_sim_material_phi(e, 0);
   sph_sim_pairs_pack(e, 0);
-  if (e->part->walls) sph_sim_walls_heat(e);
-  for (int g = 0; g < sim->groups && e->part->walls; g++) {
+  int status = e->part->walls ? sph_sim_walls_heat(e) : SPH_OK;
+  for (int g = 0; g < sim->groups && e->part->walls && !status; g++) {
     if (!sim->group[g]->wall) continue;
-    if (sim->group[g]->model == SPH_MODEL_MIRROR) sph_sim_mirror_fill(e, g);
+    if (sim->group[g]->model == SPH_MODEL_MIRROR) status = sph_sim_mirror_fill(e, g);
     if (sim->group[g]->model == SPH_MODEL_DBC) dynamic(e, g);
     if (sim->group[g]->model != SPH_MODEL_ADAMI) continue;
     sph_sim_pairs_pack_positions(e, g);
@@ -224,7 +242,7 @@ int sph_sim_walls_fill(sph_evaluation *e)
         sph_sim_pairs_loop(sim, loop, g, f, &sim->constants);
     sph_sim_walls_finish(e, g);
   }
-  if (!e->part->walls) return SPH_OK;
+  if (status || !e->part->walls) return status;
   sph_sim_material_phi(e, 1);
   sph_sim_pairs_pack(e, 1);
   return SPH_OK;

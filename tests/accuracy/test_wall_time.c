@@ -1,6 +1,7 @@
 /* Walls that change with time, against exact solutions: a slab between faces whose temperature
- * oscillates (adami, dbc, mirror; the periodic solution of the heat equation), liquid that turns
- * with its drum as a rigid body, and what a wall that turns and moves does (kinematics). */
+ * oscillates (adami, dbc, mirror; the periodic solution of the heat equation), a square between
+ * mirrors whose temperature and flux vary along them, liquid that turns with its drum as a rigid
+ * body, and what a wall that turns and moves does (kinematics). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -112,6 +113,59 @@ static void heat_over_time(void **state)
     assert_true(fine <= row[k].bar);
     assert_true(log2(coarse / fine) >= row[k].order);
   }
+}
+
+/* ---- heat along mirrors: T = T0 + A x y is harmonic, and its images go on with it exactly ---- */
+
+static void xy_face(void *ctx, double t, long n, const double *const x[3], double *T)
+{
+  (void)ctx, (void)t;
+  for (long i = 0; i < n; i++) T[i] = T0 + A * x[0][i] * x[1][i];
+}
+
+static void xy_flux(void *ctx, double t, long n, const double *const x[3], double *q)
+{
+  (void)ctx, (void)t;
+  for (long i = 0; i < n; i++) q[i] = x[1][i] > 0.5 ? A * x[0][i] : -A * x[0][i];
+}
+
+static void heat_along_mirrors(void **state)
+{
+  const double lo[2] = {0, 0}, hi[2] = {1, 1};
+  enum { N = 400 };
+  double T[N], most = 0;
+  (void)state;
+  sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 0.05});
+  sph_group *body = sph_group_box(sim, "body", lo, hi, 1);
+  sph_group *hot = sph_group_create(sim, "hot", "wall");
+  sph_group *heated = sph_group_create(sim, "heated", "wall");
+  sph_boundary across = sph_boundary_mirror(), along = sph_boundary_mirror();
+  sph_eos eos = sph_eos_linear(1, 1, -INFINITY);
+  eos.c_v = 1;
+  sph_group_set_eos(body, eos);
+  sph_group_set_conductivity(body, 1);
+  sph_group_set_energy(body, "temperature");
+  const double *const x[3] = {sph_group_read(body, "position", 0),
+                              sph_group_read(body, "position", 1)};
+  assert_int_equal(sph_group_count(body), N);
+  xy_face(NULL, 0, N, x, T);
+  sph_group_set_temperature(body, T);
+  sph_boundary_mirror_box(&across, lo, hi, "y- y+", 2);
+  sph_boundary_mirror_box(&along, lo, hi, "x- x+", 2);
+  across.temperature_at = xy_face;
+  along.heat_flux_at = xy_flux;
+  sph_group_set_boundary(hot, across);
+  sph_group_set_boundary(heated, along);
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, sph_term_pressure());
+  sph_sim_add_term(sim, sph_term_conduction());
+  if (sph_sim_evaluate(sim)) fail_msg("%s", sph_sim_error(sim));
+  const double *rate = sph_group_rate(body, "temperature", 0);
+  for (long i = 0; i < N; i++) most = fmax(most, fabs(rate[i]));
+  print_message("# T0 + A x y between mirrors: |dT/dt| <= %.2g K/s (a step of A would give %g)\n",
+                most, A / (0.05 * 0.05));
+  assert_true(most <= 1e-12 * T0 / (0.05 * 0.05));
+  sph_sim_free(sim);
 }
 
 /* ---- a drum of radius 1 m, one radian a second ---- */
@@ -266,9 +320,8 @@ static void refusals(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(heat_over_time),
-      cmocka_unit_test(rigid_body),
-      cmocka_unit_test(turns_and_moves),
+      cmocka_unit_test(heat_over_time), cmocka_unit_test(heat_along_mirrors),
+      cmocka_unit_test(rigid_body),     cmocka_unit_test(turns_and_moves),
       cmocka_unit_test(refusals),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
