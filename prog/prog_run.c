@@ -23,16 +23,23 @@ static void name_directory(prog_job *j)
 
 static int failed(const sph_error *error) { return sph_prog_error(PROG_FAILED, "%s", error->text); }
 
+/* Under another name first: a run that goes on may find no space, and the old one is to stay. */
 static int write_case(const prog_job *j)
 {
-  char path[4096];
+  char path[4096], part[4100];
   sph_error error = {0};
   if (sph_case_files_keep(j->c, j->directory, &error)) return failed(&error);
   snprintf(path, sizeof path, "%s/case.yml", j->directory);
+  snprintf(part, sizeof part, "%s.tmp", path);
   const char *text = sph_case_text(j->c);
-  FILE *file = fopen(path, "wb");
+  FILE *file = fopen(part, "wb");
   int bad = !file || fwrite(text, 1, strlen(text), file) != strlen(text);
-  bad = (file && fclose(file)) || bad;
+  bad = (file && fclose(file)) || bad || rename(part, path);
+  if (bad && file) {
+    const int why = errno;
+    unlink(part);
+    errno = why;
+  }
   return bad ? sph_prog_error(PROG_FAILED, "cannot write %s: %s", path, strerror(errno)) : PROG_OK;
 }
 

@@ -32,11 +32,10 @@ SPH_API sph_sim *sph_case_build(const sph_case *c, int threads, sph_error *error
 /* Do the parts of terms fit the integrator that the case names?  Else a run of that simulation
  * fails; here the place in the file is told.  Another integrator may be set for it. */
 SPH_API int sph_case_check_parts(const sph_case *c, sph_error *error);
-/* Keys that do nothing without their partner, as heat_flux without conduction, events behind the end
- * of the run, periods longer than it: warning k = 0, 1, ... written to text[size]; 0: there is none.
- */
+/* Keys that do nothing without their partner, as heat_flux without conduction, events behind the
+ * end of the run, periods longer than it: warning k = 0, 1, ... written to text[size]; 0: none. */
 SPH_API int sph_case_warning(const sph_case *c, int k, char *text, size_t size);
-/* What event k = 0, 1, ... of the case waits for, does and changes, in one line; 0: there is none. */
+/* What event k = 0, 1, ... of the case waits for, does and changes, in one line; 0: none. */
 SPH_API int sph_case_event_text(const sph_case *c, int k, char *text, size_t size);
 /* The integrator that the case names, as its simulation has it; its strings live as long as c. */
 SPH_API void sph_case_build_integrator(const sph_case *c, sph_integrator_def *def);

@@ -84,13 +84,16 @@ static int is_parameter(const sph_case *c, const char *set, const char *end)
 static int apply(sph_case *c, const char *set)
 {
   const char *value = strchr(set, '=');
-  char path[200];
+  char path[200], where[500];
   if (!value || value == set || (size_t)(value - set) >= sizeof path - 20)
     return sph_error_set(c->error, SPH_ERR_PARSE, "--set %.100s: wanted key=value, as spacing=1cm",
                          set);
   snprintf(path, sizeof path, "%s%.*s", is_parameter(c, set, value) ? "parameters." : "",
            (int)(value - set), set);
-  sph_case_node *given = sph_case_reader_parse(set, value + 1, strlen(value + 1), c->error);
+  snprintf(where, sizeof where, "%s: --set %.200s: in its value", c->path, set);
+  const char *text = value + 1 + strspn(value + 1, " \t");
+  sph_case_node *given = *text ? sph_case_reader_parse(where, text, strlen(text), c->error)
+                               : sph_case_reader_new(SPH_CASE_SCALAR, NULL, "", c->error);
   if (!given) return c->error->status;
   set_origin(given, set);
   int status = put(c, set, path, given);
@@ -98,34 +101,47 @@ static int apply(sph_case *c, const char *set)
   return status;
 }
 
-/* The text, with what was set as comments in front. */
-static char *whole_text(const char *text, size_t size, int n, const char *const *set,
-                        sph_error *error)
+/* A copy of what was gathered, NULL with an error; text is freed. */
+static char *taken(sph_text *text, sph_error *error)
 {
-  sph_text whole = {0};
-  for (int k = 0; k < n; k++) sph_text_add(&whole, "# --set %s\n", set[k]);
-  sph_text_add(&whole, "%.*s", (int)size, text);
   char *copy = NULL;
-  if (whole.error.status)
-    sph_error_set(error, whole.error.status, "%s", whole.error.text);
+  if (text->error.status)
+    sph_error_set(error, text->error.status, "%s", text->error.text);
   else
-    copy = sph_memory_string(whole.data ? whole.data : "", error);
-  sph_text_free(&whole);
+    copy = sph_memory_string(text->data ? text->data : "", error);
+  sph_text_free(text);
   return copy;
 }
 
-/* The same of a case that was made of several files. */
-static char *joined_text(const sph_case *c, int n, const char *const *set, sph_error *error)
+/* What was read: of one file its text, of several the joined tree. */
+static char *source_of(const sph_case *c, int joined, const char *text, size_t size,
+                       sph_error *error)
+{
+  sph_text source = {0};
+  if (!joined) {
+    sph_text_append(&source, text, size);
+    return taken(&source, error);
+  }
+  sph_text_add(&source, "# %s", c->path);
+  for (int k = 0; k < c->includes; k++) sph_text_add(&source, ", %s", c->include[k]);
+  sph_text_add(&source, " joined");
+  sph_case_include_write(c, &source);
+  return taken(&source, error);
+}
+
+/* The tree as it was set, with what was set in comments in front; no paths, which a restart may
+ * have others of. */
+static char *text_of(const sph_case *c, sph_error *error)
 {
   sph_text text = {0};
-  char *whole = NULL;
+  for (int k = 0; k < SPH_CASE_SETS && c->set[k]; k++) {
+    sph_text_add(&text, "# --set ");
+    for (const char *at = c->set[k]; *at; at++)
+      sph_text_add(&text, "%c", (unsigned char)*at < ' ' ? ' ' : *at);
+    sph_text_add(&text, "\n");
+  }
   sph_case_include_write(c, &text);
-  if (text.error.status)
-    sph_error_set(error, text.error.status, "%s", text.error.text);
-  else
-    whole = whole_text(text.data, text.length, n, set, error);
-  sph_text_free(&text);
-  return whole;
+  return taken(&text, error);
 }
 
 static int check_given(const char *path, const char *text, int n, const char *const *set,
@@ -158,15 +174,14 @@ sph_case *sph_case_read_text(const char *path, const char *text, size_t size, in
   c->path = sph_memory_string(path, error);
   if (c->path) c->root = sph_case_reader_parse(c->path, text, size, error);
   const int joined = c->root ? sph_case_include(c) : SPH_ERR_PARSE;
-  if (joined > 0) c->text = joined_text(c, n, set, error);
-  if (joined == 0) c->text = whole_text(text, size, n, set, error);
-  for (int k = 0; c->text && k < n; k++) c->source += strlen("# --set \n") + strlen(set[k]);
+  if (joined >= 0) c->source = source_of(c, joined, text, size, error);
   if (n > SPH_CASE_SETS)
     sph_error_set(error, SPH_ERR_PARSE, "%d times --set; at most %d", n, SPH_CASE_SETS);
   for (int k = 0; k < n && c->root && !error->status; k++) {
     c->set[k] = sph_memory_string(set[k], error); /* messages point to it later, too */
     if (c->set[k]) apply(c, c->set[k]);
   }
+  if (n > 0 && !error->status) c->text = text_of(c, error);
   if (!error->status) sph_case_check(c);
   c->error = NULL;
   if (!error->status) return c;
@@ -194,6 +209,7 @@ void sph_case_free(sph_case *c)
   for (int k = 0; k < c->includes; k++) sph_memory_free(c->include[k]);
   sph_memory_free(c->path);
   sph_memory_free(c->text);
+  sph_memory_free(c->source);
   sph_memory_free(c);
 }
 
@@ -208,9 +224,9 @@ const char *sph_case_title(const sph_case *c)
   return title ? title->text : "";
 }
 
-const char *sph_case_text(const sph_case *c) { return c ? c->text : ""; }
+const char *sph_case_text(const sph_case *c) { return !c ? "" : c->text ? c->text : c->source; }
 
-const char *sph_case_source(const sph_case *c) { return c ? c->text + c->source : ""; }
+const char *sph_case_source(const sph_case *c) { return c ? c->source : ""; }
 
 const char *sph_case_set(const sph_case *c, int k)
 {

@@ -66,12 +66,7 @@ static void add_series(const builder *b, const sph_case_node *output)
                         .force = force,
                         .powers = get_number(output, "powers", 0) != 0};
   for (const sph_case_node *node = first_of(output, "forces"); node; node = node->next) {
-    const char *kind = sph_group_kind(sph_sim_group(b->sim, node->key));
-    if (strcmp(kind, "wall") != 0)
-      fail(b, node,
-           *kind ? "forces: a fluid; right is the name of a wall"
-                 : "forces: no group of that name; right is the name of a wall");
-    else if (def.forces == MOST)
+    if (def.forces == MOST)
       fail(b, node, "more than 64 forces");
     else {
       force[def.forces].wall = node->key;
@@ -116,30 +111,16 @@ static double *places(const builder *b, const sph_case_node *points, long *n)
 
 static void add_probe(const builder *b, const sph_case_node *node)
 {
-  static const char *const ways[] = {"at", "points", "line", "plane"};
   sph_probe_def def = {.directory = b->directory,
                        .name = node->key,
                        .interval = get_number(node, "interval", b->interval),
                        .fields = get_text(node, "fields", NULL),
                        .group = get_text(node, "group", NULL)};
   double *x = NULL;
-  int given = 0;
-  for (int k = 0; k < 4; k++) given += child_of(node, ways[k]) != NULL;
-  if (given != 1) {
-    fail(b, node, "a probe; right is one of at, points, line, plane");
-    return;
-  }
   get_vector(node, "at", def.from);
   if (child_of(node, "line")) set_line(child_of(node, "line"), &def);
   if (child_of(node, "plane")) set_plane(child_of(node, "plane"), &def);
-  if (child_of(node, "points")) {
-    def.x = x = places(b, child_of(node, "points"), &def.points);
-    if (def.points == 0) {
-      fail(b, node, "a probe of no points");
-      sph_memory_free(x);
-      return;
-    }
-  }
+  if (child_of(node, "points")) def.x = x = places(b, child_of(node, "points"), &def.points);
   sph_sim_add_output(b->sim, sph_output_probe(&def));
   sph_memory_free(x);
 }
@@ -156,7 +137,7 @@ void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directo
   const int compression = (int)get_number(output, "compression", 1);
   sph_hdf5_def def = {.directory = directory,
                       .interval = get_number(output, "snapshots", end / 20),
-                      .case_text = c->text,
+                      .case_text = sph_case_text(c),
                       .single = !strcmp(get_text(output, "precision", "double"), "single"),
                       .compression = compression > 0 ? compression : -1,
                       .command = command};

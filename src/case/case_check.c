@@ -202,7 +202,9 @@ static int check_list(sph_case *c, const sph_case_key *key, enum sph_case_type o
                 count == 1   ? "1"
                 : count == 2 ? "1, 2"
                              : "1, 2, 3");
-  if (node->kind != SPH_CASE_LIST) return FAIL(node, 0, "%s: wanted a list", key->name);
+  if (node->kind != SPH_CASE_LIST)
+    return FAIL(node, 0, "%s: found %s, wanted a list: [...], or lines that begin with -",
+                key->name, node->kind == SPH_CASE_MAP ? "a mapping" : "a value");
   for (sph_case_node *child = node->first; child; child = child->next, n++)
     if (check_value(c, &item, child)) return SPH_ERR_PARSE;
   if (count >= 0 && n != count)
@@ -478,6 +480,85 @@ static int check_motions(sph_case *c)
   return status;
 }
 
+/* ---- places and outputs */
+
+static int check_axis(sph_case *c, const sph_case_node *axis, const char *key)
+{
+  if (!axis || axis->text[0] - 'x' < c->dim) return SPH_OK;
+  return FAIL(axis, 0, "%s: there is no %s in %d dimension%s", key, axis->text, c->dim,
+              c->dim == 1 ? "" : "s");
+}
+
+static int check_periodic(sph_case *c)
+{
+  const sph_case_node *periodic = sph_case_reader_find(c->root, "periodic");
+  const sph_case_node *axes = sph_case_reader_find(periodic, "axes");
+  double lower[3], upper[3];
+  sph_case_reader_vector(periodic, "lower", lower);
+  sph_case_reader_vector(periodic, "upper", upper);
+  int status = SPH_OK;
+  for (const sph_case_node *axis = axes ? axes->first : NULL; axis && !status; axis = axis->next) {
+    const int d = axis->text[0] - 'x';
+    status = check_axis(c, axis, "axes");
+    if (!status && !(upper[d] > lower[d]))
+      status = FAIL(sph_case_reader_find(periodic, "upper"), 0,
+                    "upper: found %s = %g m, with lower %g m; upper above lower is right",
+                    axis->text, upper[d], lower[d]);
+  }
+  return status;
+}
+
+static int check_hydrostatic(sph_case *c)
+{
+  const sph_case_node *groups = sph_case_reader_find(c->root, "groups");
+  int status = SPH_OK;
+  for (const sph_case_node *group = groups->first; group && !status; group = group->next) {
+    const sph_case_node *initial = sph_case_reader_find(group, "initial");
+    const sph_case_node *column = sph_case_reader_find(initial, "hydrostatic");
+    status = check_axis(c, sph_case_reader_find(column, "axis"), "axis");
+  }
+  return status;
+}
+
+static int check_probe(sph_case *c, const sph_case_node *probe)
+{
+  static const char *const ways[] = {"at", "points", "line", "plane"};
+  const sph_case_node *points = sph_case_reader_find(probe, "points");
+  int given = 0;
+  for (int k = 0; k < 4; k++) given += sph_case_reader_find(probe, ways[k]) != NULL;
+  if (given != 1)
+    return FAIL_KEY(probe,
+                    "probe %.60s: found %s; exactly one of these says where: at, points, "
+                    "line, plane",
+                    probe->key, given ? "several places" : "no place");
+  return !points || points->first ? SPH_OK : FAIL(points, 0, "points: found none");
+}
+
+static int check_force(sph_case *c, const sph_case_node *force)
+{
+  const sph_case_node *group =
+      sph_case_reader_find(sph_case_reader_find(c->root, "groups"), force->key);
+  if (!strcmp(sph_case_reader_text(group, "kind", ""), "wall")) return SPH_OK;
+  return FAIL_KEY(force, "forces: '%.60s' is %s; right is the name of a wall", force->key,
+                  group ? "a fluid" : "no group");
+}
+
+static int check_outputs(sph_case *c)
+{
+  const sph_case_node *output = sph_case_reader_find(c->root, "output");
+  const sph_case_node *monitors = sph_case_reader_find(output, "monitors");
+  const sph_case_node *forces = sph_case_reader_find(output, "forces");
+  const sph_case_node *probes = sph_case_reader_find(output, "probes");
+  int status = SPH_OK;
+  for (const sph_case_node *m = monitors ? monitors->first : NULL; m && !status; m = m->next)
+    status = check_axis(c, sph_case_reader_find(m, "axis"), "axis");
+  for (const sph_case_node *f = forces ? forces->first : NULL; f && !status; f = f->next)
+    status = check_force(c, f);
+  for (const sph_case_node *p = probes ? probes->first : NULL; p && !status; p = p->next)
+    status = check_probe(c, p);
+  return status;
+}
+
 int sph_case_check(sph_case *c)
 {
   sph_case_node *dimension = sph_case_reader_find(c->root, "dimension");
@@ -498,5 +579,8 @@ int sph_case_check(sph_case *c)
   if (!status) status = check_drag(c);
   if (!status) status = check_motions(c);
   if (!status) status = check_comparisons(c);
+  if (!status) status = check_periodic(c);
+  if (!status) status = check_hydrostatic(c);
+  if (!status) status = check_outputs(c);
   return status ? status : check_forms(c);
 }

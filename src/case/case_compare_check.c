@@ -1,4 +1,5 @@
 /* Comparisons, before a run of hours: are their tables there, has the run that quantity? */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -13,6 +14,7 @@
 
 #define child_of sph_case_reader_find
 #define get_text sph_case_reader_text
+#define get_number sph_case_reader_number
 
 typedef sph_case_comparer comparer;
 
@@ -95,6 +97,73 @@ static int check_series(const comparer *a)
   return fail(a, quantity, what);
 }
 
+/* As the comparisons themselves say it behind the run. */
+static int check_norm(const comparer *a, int in_space)
+{
+  const sph_case_node *norm = child_of(a->node, "norm");
+  const int of_points =
+      !strcmp(norm->text, "rms") || !strcmp(norm->text, "l1") || !strcmp(norm->text, "max");
+  if (in_space && !of_points)
+    return fail(a, norm, "norm: solutions in space and sections know rms, l1, max");
+  if (!in_space && sph_case_curve_of_one(norm->text) && strcmp(a->kind->key, "value") != 0)
+    return fail(a, norm, "norm: drift, period, decay go with reference: value");
+  return SPH_OK;
+}
+
+static int has_snapshots_of_events(const sph_case *c)
+{
+  const sph_case_node *events = child_of(c->root, "events");
+  int found = 0;
+  for (const sph_case_node *e = events ? events->first : NULL; e; e = e->next)
+    found |= get_number(e, "snapshot", 0) != 0;
+  return found;
+}
+
+/* Will there be a snapshot at each of its times? */
+static int check_times(const comparer *a)
+{
+  const sph_case_node *at = child_of(a->node, "at");
+  const double end = sph_case_end(a->c);
+  const double every = get_number(child_of(a->c->root, "output"), "snapshots", end / 20);
+  char what[200];
+  if (at && !sph_case_profile_known(a)) return fail(a, at, "at: belongs to solutions in space");
+  for (const sph_case_node *t = at ? at->first : NULL; t; t = t->next) {
+    const double off = fabs(t->number - every * round(t->number / every));
+    if (t->number > end * (1 + 1e-9))
+      snprintf(what, sizeof what, "at: %g s is behind the end of the run, %g s", t->number, end);
+    else if (off > 1e-9 * end && t->number < end * (1 - 1e-9) && !has_snapshots_of_events(a->c))
+      snprintf(what, sizeof what,
+               "at: there will be no snapshot at t = %g s; output: snapshots makes one each %g s",
+               t->number, every);
+    else
+      continue;
+    return fail(a, t, what);
+  }
+  return SPH_OK;
+}
+
+/* Of a section its times, of all others the places or times that count. */
+static int check_window(const comparer *a)
+{
+  const sph_case_node *node = child_of(a->node, "window"), *axis = child_of(a->kind, "axis");
+  double window[3];
+  char what[200];
+  if (sph_case_section_known(a) && axis->text[0] - 'x' >= a->c->dim) {
+    snprintf(what, sizeof what, "axis: there is no %s in %d dimension%s", axis->text, a->c->dim,
+             a->c->dim == 1 ? "" : "s");
+    return fail(a, axis, what);
+  }
+  if (!sph_case_reader_vector(a->node, "window", window)) return SPH_OK;
+  snprintf(what, sizeof what, "window: found from %g to %g; right is from the less to the larger",
+           window[0], window[1]);
+  if (!(window[0] <= window[1])) return fail(a, node, what);
+  const double begin = window[0] * get_number(a->node, "time_scale", 1), end = sph_case_end(a->c);
+  snprintf(what, sizeof what, "window: it begins at %g s, behind the end of the run, %g s", begin,
+           end);
+  if (!sph_case_profile_known(a) && begin > end) return fail(a, node, what);
+  return SPH_OK;
+}
+
 int sph_case_compare_check(const sph_case *c, sph_sim *sim, const char *directory, sph_error *error)
 {
   sph_error own = {0};
@@ -109,6 +178,10 @@ int sph_case_compare_check(const sph_case *c, sph_sim *sim, const char *director
     const int in_space = sph_case_profile_known(&a) || sph_case_section_known(&a);
     status = check_table(&a);
     if (!status) status = in_space ? check_field(&a) : check_series(&a);
+    if (!status) status = check_norm(&a, in_space);
+    if (!status) status = check_times(&a);
+    if (!status) status = check_window(&a);
+    if (!status && sph_case_profile_known(&a)) status = sph_case_profile_check(&a);
   }
   return status;
 }

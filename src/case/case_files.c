@@ -39,8 +39,8 @@ static int keep_one(const sph_case *c, const char *name, const char *directory, 
   *strrchr(to, '/') = '\0';
   if (sph_file_make_directory(to, error)) return error->status;
   to[strlen(to)] = '/';
-  unlink(to);
   if (file.st_size <= LARGEST) return copy(from, to, (long)file.st_size, error);
+  unlink(to);
   if (!symlink(real, to)) return SPH_OK;
   return sph_error_set(error, SPH_ERR_FILE, "cannot link %s to %s: %s", to, real, strerror(errno));
 }

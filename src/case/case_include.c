@@ -265,8 +265,8 @@ static void write_scalar(const sph_case_node *node, sph_text *text)
       sph_text_add(text, "\\n");
     else if (*at == '"' || *at == '\\')
       sph_text_add(text, "\\%c", *at);
-    else if (*at == '\t')
-      sph_text_add(text, "\\t");
+    else if ((unsigned char)*at < ' ' || *at == '\177')
+      sph_text_add(text, "\\x%02x", (unsigned)*at);
     else
       sph_text_add(text, "%c", *at);
   }
@@ -308,10 +308,4 @@ static void write_value(const sph_case_node *node, int depth, sph_text *text)
   }
 }
 
-void sph_case_include_write(const sph_case *c, sph_text *text)
-{
-  sph_text_add(text, "# %s", c->path);
-  for (int k = 0; k < c->includes; k++) sph_text_add(text, ", %s", c->include[k]);
-  sph_text_add(text, " joined");
-  write_value(c->root, 0, text);
-}
+void sph_case_include_write(const sph_case *c, sph_text *text) { write_value(c->root, 0, text); }

@@ -198,17 +198,22 @@ static int solve(const comparer *a, const quantity *q, profile *p)
 {
   const sph_case_solution *solution = sph_case_solution_find(a->kind->key);
   sph_case_moment m = {.reference = a->kind, .sim = a->sim, .time = p->time, .dim = a->c->dim};
+  const sph_case_node *named = child_of(a->node, "quantity");
+  sph_error e = {0};
   long first = 0;
   int status = SPH_OK;
   for (int k = 0; !status && (m.group = next_fluid(a, &k)); k++) {
     m.n = sph_group_count(m.group);
     for (int d = 0; d < m.dim; d++) m.x[d] = p->x[d] + first;
     for (int c = 0; c < q->components && !status; c++)
-      status = solution->at(&m, q->field, q->first + c, p->exact[c] + first, a->error);
+      status = solution->at(&m, q->field, q->first + c, p->exact[c] + first, &e);
     first += m.n;
   }
-  if (status == SPH_CASE_NO_FIELD) return fail(a, child_of(a->node, "quantity"), solution->about);
-  return status;
+  if (status == SPH_CASE_NO_FIELD)
+    return sph_case_schema_fail(a->c, a->error, named, 1, 0, "quantity: found '%.60s'; %s",
+                                named->text, solution->about);
+  if (status == SPH_ERR_MEMORY) return sph_error_set(a->error, status, "%s", e.text);
+  return status ? sph_case_schema_fail(a->c, a->error, a->kind, 0, 0, "%s", e.text) : SPH_OK;
 }
 
 /* Keeps the particles whose coordinate is in the window. */
@@ -410,6 +415,28 @@ int sph_case_profile_compare(const comparer *a, sph_case_distance *d, char note[
   int n = times_of(a, times);
   int status = n < 0 ? n : compare_all(a, d, times, n, p, note);
   for (int k = 0; k < TIMES; k++) sph_memory_free(p[k].memory);
+  return status;
+}
+
+/* The solution at the end, where the particles are now: what it has not, it says here. */
+int sph_case_profile_check(const comparer *a)
+{
+  const sph_group *group;
+  quantity q = quantity_of(a);
+  profile p = {.time = sph_case_end(a->c)};
+  double times[TIMES];
+  long first = 0;
+  if (times_of(a, times) < 0) return a->error->status;
+  count_fluids(a, &p);
+  int status = make(&p, a->c->dim, q.components, a->error);
+  for (int k = 0; !status && (group = next_fluid(a, &k)); k++) {
+    const long n = sph_group_count(group);
+    for (int d = 0; d < a->c->dim; d++)
+      memcpy(p.x[d] + first, sph_group_read(group, "position", d), (size_t)n * sizeof *p.x[d]);
+    first += n;
+  }
+  if (!status) status = solve(a, &q, &p);
+  sph_memory_free(p.memory);
   return status;
 }
 

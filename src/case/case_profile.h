@@ -23,6 +23,8 @@ int sph_case_profile_known(const sph_case_comparer *a);
  * Leaves directory/compare_NUMBER.csv (directory NULL: none). */
 int sph_case_profile_compare(const sph_case_comparer *a, sph_case_distance *d,
                              char note[SPH_CASE_NOTE]);
+/* Before the run: has the solution that quantity, of these groups? */
+int sph_case_profile_check(const sph_case_comparer *a);
 /* Draws that table. */
 int sph_case_profile_plot(const sph_case_comparer *a, const char *png);
 

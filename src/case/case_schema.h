@@ -47,8 +47,8 @@ typedef struct sph_case_key {
 enum { SPH_CASE_NAMES = 100, SPH_CASE_SETS = 64, SPH_CASE_INCLUDES = 32 };
 
 struct sph_case {
-  char *path, *text; /* owned */
-  size_t source;     /* where in text the file begins, behind what was set */
+  char *path, *source; /* owned; source: what was read */
+  char *text;          /* the same with what was set, owned; NULL: nothing was */
   sph_case_node *root;
   int dim;
   int n;                               /* of names */

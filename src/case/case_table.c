@@ -75,20 +75,16 @@ void sph_case_table_free(sph_case_table *it)
 
 /* ---- from a case */
 
-/* The unit in "front [m]", or the one that the case gives instead. */
-static int unit_of(sph_case *c, const sph_case_node *given, const char *title, const char *what,
-                   sph_case_value *unit)
+/* The unit in "front [m]". */
+static int unit_of(sph_case *c, const char *title, const char *what, sph_case_value *unit)
 {
   const char *open = strchr(title, '['), *close = open ? strchr(open, ']') : NULL;
   char text[140];
   *unit = (sph_case_value){.value = 1};
-  if (!given && (!close || close == open + 1)) return SPH_OK;
-  if (!given) snprintf(text, sizeof text, "1 %.*s", (int)(close - open - 1), open + 1);
-  if (!given && open[1] == '1')
-    snprintf(text, sizeof text, "%.*s", (int)(close - open - 1), open + 1);
-  if (!sph_case_value_evaluate(given ? given->text : text, c->names, c->n, unit)) return SPH_OK;
-  if (given)
-    return sph_case_schema_fail(c, c->error, given, 1, unit->column, "unit: %s", unit->problem);
+  if (!close || close == open + 1) return SPH_OK;
+  snprintf(text, sizeof text, "%s%.*s", open[1] == '1' ? "" : "1 ", (int)(close - open - 1),
+           open + 1);
+  if (!sph_case_value_evaluate(text, c->names, c->n, unit)) return SPH_OK;
   return sph_error_set(c->error, SPH_ERR_PARSE, "%s: unit of the column '%.60s': %s", what, title,
                        unit->problem);
 }
@@ -96,8 +92,8 @@ static int unit_of(sph_case *c, const sph_case_node *given, const char *title, c
 static int check_times(const sph_case_table *it, const char *path, sph_error *error)
 {
   if (it->n < 2)
-    return sph_error_set(error, SPH_ERR_FILE, "%s: a table of %ld rows; right is 2 or more", path,
-                         it->n);
+    return sph_error_set(error, SPH_ERR_FILE, "%s: a table of %ld row%s; right is 2 or more", path,
+                         it->n, it->n == 1 ? "" : "s");
   for (long k = 0; k < it->n; k++) {
     if (!isfinite(it->t[k]) || !isfinite(it->value[k]))
       return sph_error_set(error, SPH_ERR_FILE,
@@ -121,8 +117,16 @@ static int check_repeat(const sph_case_table *it, const char *path, sph_error *e
       it->value[0], it->value[it->n - 1]);
 }
 
+static int is_time(const sph_case_value *unit)
+{
+  double others = 0;
+  for (int b = 0; b < SPH_CASE_BASES; b++) others += b == 2 ? 0 : fabs(unit->power[b]);
+  return others == 0 && (unit->power[2] == 0 || unit->power[2] == 1);
+}
+
+/* given: the unit of the case, NULL: that of the file. */
 static int load(sph_case *c, sph_case_table *it, const sph_case_node *map, const char *path,
-                double power[SPH_CASE_BASES])
+                const sph_case_value *given, double power[SPH_CASE_BASES])
 {
   char t_title[128], title[128];
   sph_case_value t_unit, unit;
@@ -134,11 +138,11 @@ static int load(sph_case *c, sph_case_table *it, const sph_case_node *map, const
   if (!status && rows != it->n)
     status =
         sph_error_set(c->error, SPH_ERR_FILE, "%s: columns of %ld and %ld rows", path, it->n, rows);
-  if (!status) status = unit_of(c, NULL, t_title, path, &t_unit);
-  if (!status) status = unit_of(c, child_of(map, "unit"), title, path, &unit);
+  if (!status) status = unit_of(c, t_title, path, &t_unit);
+  if (!status && !given) status = unit_of(c, title, path, &unit);
   if (status) return status;
-  const int plain = t_unit.power[2] == 0, seconds = t_unit.power[2] == 1;
-  if (!(plain || seconds) || t_unit.power[0] != 0 || t_unit.power[1] != 0)
+  if (given) unit = *given;
+  if (!is_time(&t_unit))
     return sph_error_set(c->error, SPH_ERR_PARSE,
                          "%s: the column '%.60s' is no time; s, ms, min are right", path, t_title);
   for (long k = 0; k < it->n; k++) it->t[k] *= t_unit.value, it->value[k] *= unit.value;
@@ -152,7 +156,10 @@ static int read_one(sph_case *c, const sph_case_node *map)
   char path[SPH_CASE_PATH];
   sph_case_name *name = &c->timed[c->timed_n];
   sph_error *outer = c->error, inner = {0};
-  const sph_case_node *file = child_of(map, "file");
+  const sph_case_node *file = child_of(map, "file"), *given = child_of(map, "unit");
+  sph_case_value unit;
+  if (given && sph_case_value_evaluate(given->text, c->names, c->n, &unit))
+    return sph_case_schema_fail(c, outer, given, 1, unit.column, "unit: %s", unit.problem);
   sph_case_table *it = SPH_NEW(sph_case_table, 1, "a table", outer);
   if (!it) return SPH_ERR_MEMORY;
   *name = (sph_case_name){.name = map->key, .table = it};
@@ -161,7 +168,7 @@ static int read_one(sph_case *c, const sph_case_node *map)
   it->cubic = strcmp(get_text(map, "interpolation", "cubic"), "linear") != 0;
   c->error = &inner;
   int status = sph_case_path(c, file->text, path, &inner);
-  if (!status) status = load(c, it, map, path, name->power);
+  if (!status) status = load(c, it, map, path, given ? &unit : NULL, name->power);
   if (!status && make_spline(it))
     status = sph_error_set(&inner, SPH_ERR_MEMORY, "out of memory: a table");
   c->error = outer;

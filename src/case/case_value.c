@@ -147,15 +147,30 @@ static int translate(formula *f, const double scale[SPH_CASE_BASES])
   return SPH_OK;
 }
 
+/* x, y, z, t where they are not known: what may stand here. */
+static const char *expected(formula *f, char text[60])
+{
+  static const char *const place[] = {"", "x", "x, y", "x, y, z"};
+  const int dim = is_name(f, "x", 1) + is_name(f, "y", 1) + is_name(f, "z", 1);
+  const int timed = is_name(f, "t", 1);
+  if (!dim && !timed) return "a number";
+  snprintf(text, 60, "an expression in %s%s%s", place[dim], dim && timed ? ", " : "",
+           timed ? "t" : "");
+  return text;
+}
+
 static int muparser_problem(formula *f, muParserHandle_t parser)
 {
   int at = mupGetErrorPos(parser);
   if (at < 0 || (size_t)at > f->length) at = 0;
-  char message[200], token[60]; /* muParser has one buffer for both */
+  char message[200], token[60], right[60]; /* muParser has one buffer for both */
   snprintf(message, sizeof message, "%s", mupGetErrorMsg(parser));
   snprintf(token, sizeof token, "%s", mupGetErrorToken(parser));
   if (isalpha((unsigned char)token[0]) && !is_name(f, token, strlen(token)))
-    return problem(f, (size_t)f->origin[at], "'%s' is no parameter and no function", token);
+    return strlen(token) == 1 && strchr("xyzt", token[0])
+               ? problem(f, (size_t)f->origin[at], "'%s' is not known here; right is %s", token,
+                         expected(f, right))
+               : problem(f, (size_t)f->origin[at], "'%s' is no parameter and no function", token);
   char *tail = strstr(message, " at position"); /* of the translated text: would mislead */
   if (tail) *tail = 0;
   return problem(f, (size_t)f->origin[at], "not an expression: %s", message);
@@ -201,7 +216,7 @@ static int exponent(formula *f, int b, double *power)
   if (!(fabs(up - down) < 1e-6))
     return problem(f, 0,
                    "'%.60s' adds or compares quantities of different units, or takes a "
-                   "function of one",
+                   "function of one; functions are of plain numbers, as sin(t/(1 s))",
                    f->text);
   double nearest = round(12 * up) / 12;
   *power = fabs(up - nearest) < 1e-6 ? nearest : up;

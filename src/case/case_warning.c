@@ -1,5 +1,5 @@
-/* Keys that do nothing without their partner, events that never happen, periods longer than the run:
- * right, but hardly what was meant. */
+/* Keys that do nothing without their partner, events that never happen, periods longer than the
+ * run: right, but hardly what was meant. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

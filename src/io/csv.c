@@ -12,13 +12,16 @@ typedef struct table {
   FILE *file;
   char line[8192];
   long number; /* of the line, from 1 */
+  int too_long;
 } table;
 
-/* The next line that is neither empty nor a comment; 0 at the end. */
+/* The next line that is neither empty nor a comment; 0 at the end, or at one that is too long. */
 static int next_line(table *t)
 {
   while (fgets(t->line, sizeof t->line, t->file)) {
     t->number++;
+    t->too_long = strlen(t->line) + 1 == sizeof t->line && t->line[sizeof t->line - 2] != '\n';
+    if (t->too_long) return 0;
     t->line[strcspn(t->line, "\r\n")] = '\0';
     if (t->line[0] != '#' && t->line[strspn(t->line, " \t")] != '\0') return 1;
   }
@@ -71,6 +74,17 @@ static int holds(const table *t, int k, const char *word)
   return at && strlen(word) == length && !strncmp(at, word, length);
 }
 
+/* Behind the last line that next_line gave. */
+static int all_read(const table *t, sph_error *error)
+{
+  if (t->too_long)
+    return sph_error_set(error, SPH_ERR_PARSE, "%s:%ld: a line of more than %zu characters",
+                         t->path, t->number, sizeof t->line - 2);
+  if (ferror(t->file))
+    return sph_error_set(error, SPH_ERR_FILE, "cannot read %s: %s", t->path, strerror(errno));
+  return SPH_OK;
+}
+
 /* Of the lines whose column `where` holds the word `is`; where < 0: of all. */
 static int read_values(table *t, int where, const char *is, int column, double **values, long *n,
                        sph_error *error)
@@ -80,11 +94,13 @@ static int read_values(table *t, int where, const char *is, int column, double *
     if (where >= 0 && !holds(t, where, is)) continue;
     const char *at = field(t, column);
     char *end = NULL;
-    double value = at ? strtod(at, &end) : 0;
-    if (!at || end == at || end[strspn(end, " \t")] != (at[strcspn(at, ",")] ? ',' : '\0'))
-      return sph_error_set(error, SPH_ERR_PARSE, "%s:%ld: \"%.*s\" in column %d is not a number",
-                           t->path, t->number, at ? (int)strcspn(at, ",") : 0, at ? at : "",
+    if (!at)
+      return sph_error_set(error, SPH_ERR_PARSE, "%s:%ld: it has no column %d", t->path, t->number,
                            column + 1);
+    double value = strtod(at, &end);
+    if (end == at || end[strspn(end, " \t")] != (at[strcspn(at, ",")] ? ',' : '\0'))
+      return sph_error_set(error, SPH_ERR_PARSE, "%s:%ld: \"%.*s\" in column %d is not a number",
+                           t->path, t->number, (int)strcspn(at, ","), at, column + 1);
     if (*n == capacity) {
       void *grown = *values;
       long more = 2 * capacity + 256;
@@ -96,13 +112,25 @@ static int read_values(table *t, int where, const char *is, int column, double *
     }
     (*values)[(*n)++] = value;
   }
-  return SPH_OK;
+  return all_read(t, error);
 }
 
 int sph_csv_read(const char *path, const char *name, int column, double **values, long *n,
                  char title[128], sph_error *error)
 {
   return sph_csv_read_rows(path, (sph_csv_rows){NULL, NULL}, name, column, values, n, title, error);
+}
+
+/* Does a row stand where names are right? */
+static int is_row(const table *t)
+{
+  char *end;
+  int k = 0, numbers = 1;
+  for (const char *at; numbers && (at = field(t, k)); k++) {
+    (void)strtod(at, &end);
+    numbers = end != at && end[strspn(end, " \t")] == (at[strcspn(at, ",")] ? ',' : '\0');
+  }
+  return numbers;
 }
 
 /* Opens the table and reads its header; t is there but where memory was not. */
@@ -115,7 +143,13 @@ static int start(table **to, const char *path, sph_error *error)
   if (!t->file)
     return sph_error_set(error, SPH_ERR_FILE, "cannot read %s: %s", t->path,
                          strerror(path ? errno : ENOENT));
-  return next_line(t) ? SPH_OK : sph_error_set(error, SPH_ERR_PARSE, "%s: an empty table", t->path);
+  if (next_line(t) && !is_row(t)) return SPH_OK;
+  int status = all_read(t, error);
+  if (!status && t->line[0])
+    return sph_error_set(error, SPH_ERR_PARSE,
+                         "%s:%ld: found numbers; the first line names the columns, as t [s],x [m]",
+                         t->path, t->number);
+  return status ? status : sph_error_set(error, SPH_ERR_PARSE, "%s: an empty table", t->path);
 }
 
 static void finish(table *t)

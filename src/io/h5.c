@@ -169,10 +169,19 @@ int sph_h5_read(hid_t where, const char *path, hid_t given, void *data)
   return bad;
 }
 
+/* Room for one is all that its readers have. */
+static int is_one(hid_t space)
+{
+  const int one = space >= 0 && H5Sget_simple_extent_npoints(space) == 1;
+  if (space >= 0) H5Sclose(space);
+  return one;
+}
+
 int sph_h5_read_real(hid_t where, const char *name, double *value)
 {
   hid_t attribute = H5Aopen(where, name, H5P_DEFAULT);
-  int bad = attribute < 0 || H5Aread(attribute, H5T_NATIVE_DOUBLE, value) < 0;
+  int bad = attribute < 0 || !is_one(H5Aget_space(attribute)) ||
+            H5Aread(attribute, H5T_NATIVE_DOUBLE, value) < 0;
   if (attribute >= 0) H5Aclose(attribute);
   return bad;
 }
@@ -182,7 +191,7 @@ int sph_h5_read_string(hid_t where, const char *name, char *value, size_t size)
   hid_t attribute = H5Aopen(where, name, H5P_DEFAULT);
   hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
   int bad = type < 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) ||
-            H5Tget_size(type) >= size;
+            H5Tget_size(type) >= size || !is_one(H5Aget_space(attribute));
   memset(value, 0, size);
   if (!bad) bad = H5Aread(attribute, type, value) < 0;
   if (type >= 0) H5Tclose(type);
@@ -194,7 +203,8 @@ char *sph_h5_read_text(hid_t where, const char *name, sph_error *error)
 {
   hid_t set = H5Dopen2(where, name, H5P_DEFAULT), type = set >= 0 ? H5Dget_type(set) : -1;
   char *text = NULL;
-  if (type >= 0 && H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type))
+  if (type >= 0 && H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) &&
+      is_one(H5Dget_space(set)))
     text = sph_memory_new(H5Tget_size(type) + 1, 1, name, error);
   if (text && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0) text[0] = '\0';
   if (type >= 0) H5Tclose(type);

@@ -23,8 +23,8 @@ void sph_sim_mirror_turn(const sph_sim *sim, const sph_ghost *ghost, double *a);
 int sph_sim_mirror_moved(const sph_sim *sim, double t);
 /* Where the mirrors stand: part of what lists depend on. */
 void sph_sim_mirror_stand(sph_sim *sim, double t);
-/* Positions, masses, velocities of the ghosts of mirror g; then, behind eos, all the rest, which may
- * be SPH_RETRY. */
+/* Positions, masses, velocities of the ghosts of mirror g; then, behind eos, all the rest, which
+ * may be SPH_RETRY. */
 void sph_sim_mirror_place(const sph_evaluation *e, int g);
 int sph_sim_mirror_fill(const sph_evaluation *e, int g);
 /* Between steps: have mirrors face to face come nearer than their images may?  Then an error. */

@@ -341,14 +341,14 @@ static void case_file(void **state)
     const char *outputs, *why;
   } wrong[] = {{"  probes: {p: {fields: pressure}}", "case.yml:11:12: "},
                {"  probes: {p: {at: [0.1 m], line: {from: [0 m], to: [1 m], n: 3}}}",
-                "right is one of at, points, line, plane"},
+                "probe p: found several places; exactly one"},
                {"  probes: {p: {points: []}}", "points"},
                {"  probes: {p: {line: {from: [0 m], to: [1 m], n: 1}}}", "must be from 2"},
                {"  probes: {p: {at: [100 m]}}", "all particles between"},
                {"  probes: {p: {at: [0 m], fields: presure}}", "did you mean 'pressure'?"},
                {"  forces: {water: {}}",
-                "case.yml:11:12: forces: a fluid; right is the name of a wall"},
-               {"  forces: {flor: {}}", "no group of that name"}};
+                "case.yml:11:12: forces: 'water' is a fluid; right is the name of a wall"},
+               {"  forces: {flor: {}}", "forces: 'flor' is no group"}};
   sph_error error = {0};
   double *value;
   char title[128];

@@ -45,11 +45,15 @@ ok $? "one runs as it is, within its bar"
 
 # ---- check
 
-fails() { # NAME, what the message says, --set
-  run 1 "$sphode" check tank2.yml --set "$3" && grep -q "^sphode: .*$2" err
-  ok $? "$1"
+fails() { # NAME, what the message says, --set...
+  local name=$1 says=$2 sets=()
+  shift 2
+  for s; do sets+=(--set "$s"); done
+  run 1 "$sphode" check tank2.yml "${sets[@]}" && grep -q "^sphode: .*$says" err
+  ok $? "$name"
 }
 "$sphode" new tank -o tank2.yml -q
+printf 'time,front\n0,0.6\n0.1,0.7\n' >front.csv
 fails "a probe of a field that is none" "probe a: water has no field .presure.; did you mean 'pressure'" "output.probes={a: {at: [0, 0], fields: presure}}"
 fails "a probe elsewhere" "probe a: its places lie" "output.probes={a: {at: [100, 0]}}"
 fails "a monitor of no fluid" "monitor a: no fluid group" "output.monitors={a: {type: height, group: nobody}}"
@@ -57,7 +61,19 @@ fails "a comparison of no column" "'frnt' is no column of series.csv" "compare=[
 fails "a comparison without its table" "cannot read no.csv" "compare=[{name: a, quantity: front, reference: {csv: {file: no.csv}}}]"
 fails "a comparison of no field" "water has no field 'velocty'; did you mean 'velocity'" \
   "compare=[{name: a, quantity: velocty, reference: {column: {surface: 1, gravity: 1}}}]"
-printf 'time,front\n0,0.6\n0.1,0.7\n' >front.csv
+column="reference: {column: {surface: H, gravity: g}}"
+fails "a quantity that a solution has not" "quantity: found 'velocity'; a column at rest has pressure, density" "compare=[{name: a, quantity: velocity, $column}]"
+fails "a norm that a solution does not know" "norm: solutions in space and sections know rms, l1, max" "compare=[{name: a, quantity: pressure, norm: decay, $column}]"
+fails "a norm of one number, of a table" "norm: drift, period, decay go with reference: value" "compare=[{name: a, quantity: front, norm: period, reference: {csv: {file: front.csv}}}]"
+fails "a time behind the end" "at: 3 s is behind the end of the run, 1 s" "compare=[{name: a, quantity: pressure, at: [0.5 s, 3 s], $column}]"
+fails "a time without a snapshot" "at: there will be no snapshot at t = 0.33 s; output: snapshots makes one each 0.05 s" "compare=[{name: a, quantity: pressure, at: [0.33 s], $column}]"
+fails "times of a table" "at: belongs to solutions in space" "compare=[{name: a, quantity: front, at: [0.5 s], reference: {csv: {file: front.csv}}}]"
+fails "a window upside down" "window: found from 1 to 0" "compare=[{name: a, quantity: front, window: [1, 0], reference: {csv: {file: front.csv}}}]"
+fails "a window behind the end" "window: it begins at 4 s, behind the end of the run, 1 s" "compare=[{name: a, quantity: front, time_scale: 2 s, window: [2, 3], reference: {csv: {file: front.csv}}}]"
+fails "an axis of a section" "axis: there is no z in 2 dimensions" "compare=[{name: a, quantity: velocity_x, reference: {section: {file: front.csv, axis: z, through: [0, 0]}}}]"
+fails "a layer of no group" "layers: there is no fluid 'oil'" "compare=[{name: a, quantity: pressure, reference: {layers: {lower: water, upper: oil, meet: 0, surface: 1, gravity: 1}}}]"
+fails "a surface of no temperature" "wall tank: the temperature of its surface is -.* K at (.*) m, t = 0 s; right is > 0" "groups.tank.boundary.temperature=1 K - 1 K/m*x" \
+  "terms.conduction=" "groups.water.conductivity=1" "groups.water.specific_heat=4000" "groups.water.energy=temperature" "groups.water.initial.temperature=300"
 run 0 "$sphode" check tank2.yml --set "compare=[{name: a, quantity: front, reference: {csv: {file: front.csv}}}]" && grep -q "right, 0 warnings" out
 ok $? "one that is right"
 run 1 "$sphode" check tank2.yml --set "compare=[{name: a, quantity: front, reference: {csv: {file: front.csv, y: back}}}]" && grep -q "back" err
@@ -81,9 +97,28 @@ warns "linear: does nothing without an imex: method" integrator.linear=klu
 warns "tolerance: does nothing without error control" integrator.tolerance=0.1 integrator.error_control=false
 warns "cfl: does nothing without steps that change" integrator.cfl=0.5 "integrator.dt_fixed=0.1 ms"
 warns "seed: does nothing without jitter" groups.water.seed=2
+warns "repulsion: does nothing without model: adami" "groups.tank.boundary={model: dbc, repulsion: 0.3}"
+warns "packing: does nothing without a shape that is filled" groups.tank.packing=
 warns "lattice: does nothing without a shape that is filled" groups.tank.lattice=hexagonal
 warns "threshold: does nothing without norm: arrival" "compare=[{name: a, quantity: front, threshold: 1, reference: {value: 1}}]"
 ok $good "keys that do nothing without their partner"
+good=0
+warns "time: event a never happens: the run ends at t = 1 s" "events={a: {when: {time: 2 s}}}"
+warns "time: event a never happens: the run begins there" "events={a: {when: {time: 0}}}"
+warns "direction: event a never happens: time rises" "events={a: {when: {time: 0.5 s}, direction: falling}}"
+warns "samples: does nothing without something to search" "events={a: {when: {time: 0.5 s}, samples: 3}}"
+warns "event a: its front is 0.6 m when the run begins, above 0.3 m already" "events={a: {when: {front: {at: 0.3 m}}}}"
+warns "event a: its point is wet when the run begins" "events={a: {when: {wet: [0.1, 0.1]}}}"
+warns "snapshots: 2 s is longer than the run of 1 s" "output.snapshots=2 s"
+warns "series: 2 s is longer than the run of 1 s" "output.series=2 s"
+warns "interval: 2 s is longer than the run of 1 s" "output.probes={a: {at: [0, 0], interval: 2 s}}"
+warns "interval: 3 s is longer than the run of 1 s" "checkpoint.interval=3 s"
+ok $good "events that never happen, periods longer than the run"
+event='events={fill: {when: {front: {at: 4*H}}, snapshot: true, once: true}, turn: {when: {time: 0.5 s}, stop: true, change: {gravity: [0, -1], delta: 0.2, walls: {tank: {velocity: [1, 0]}}}}}'
+run 0 "$sphode" check tank2.yml --set "$event" --set 'groups.tank.boundary={motion: {velocity: [0, 0]}}' && grep -q "right, 0 warnings" out &&
+  grep -q "^event        fill: the front of all fluids passes x = 1.2 m, once: snapshot$" out &&
+  grep -q "^event        turn: t = 0.5 s: gravity (0, -9.81) -> (0, -1), delta 0.1 -> 0.2, velocity of tank -> (1, 0), stop$" out
+ok $? "what events wait for, do and change"
 if command -v gnuplot >/dev/null; then
   run 0 "$sphode" check tank2.yml --picture a.png && [[ $(head -c 4 a.png | tail -c 3) == PNG ]] && grep -q "groups\|water" a.gp &&
     [[ $(grep -c '^$' a.dat) == 4 ]]

@@ -42,10 +42,16 @@ static sph_case *read_case(const char *name)
   return c;
 }
 
-/* The message without the folder. */
+/* The message without the folder, which is DIR in it. */
 static void refused(const char *name, const char *says)
 {
   sph_error error = {0};
+  char text[1000];
+  const char *dir = strstr(says, "DIR");
+  if (dir) {
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(dir - says), says, folder, dir + 3);
+    says = text;
+  }
   sph_case *c = sph_case_read(in_folder(name), 0, NULL, &error);
   sph_sim *sim = c ? sph_case_build(c, 1, &error) : NULL;
   assert_null(sim);
@@ -330,16 +336,32 @@ static void tables_that_are_none(void **state)
     const char *csv, *more, *displacement, *says;
   } bad[] = {
       {"t,x\n0,0\n1,1\n", ", unit: 1 s", "push", "moved.yml:8:"},
-      {"t,x\n0,0\n0,1\n", "", "push", "moved.yml:4:23: "},
-      {"t,x\n0,0\n", "", "push", "moved.yml:4:23: "},
-      {"t,x\n0,0\n1,a\n", "", "push", "moved.yml:4:23: "},
-      {"t [m],x\n0,0\n1,1\n", "", "push", "moved.yml:4:23: "},
-      {"t,x [foo]\n0,0\n1,1\n", "", "push", "moved.yml:4:23: "},
-      {"t,x\n0,0\n1,1\n", ", outside: repeat", "push", "moved.yml:4:23: "},
-      {"t,x\n0,0\n1,1\n", ", column: y", "push", "moved.yml:4:23: "},
+      {"t,x\n0,0\n0,1\n", "", "push",
+       "moved.yml:4:23: DIR/push.csv: row 2 is of t = 0, the one before it of 0; times that rise"},
+      {"t,x\n0,0\n", "", "push",
+       "moved.yml:4:23: DIR/push.csv: a table of 1 row; right is 2 or more"},
+      {"t,x\n0,0\n1,a\n", "", "push",
+       "moved.yml:4:23: DIR/push.csv:3: \"a\" in column 2 is not a number"},
+      {"t,x\n0,0\n1\n", "", "push", "moved.yml:4:23: DIR/push.csv:3: it has no column 2"},
+      {"0,0\n1,1\n", "", "push",
+       "moved.yml:4:23: DIR/push.csv:1: found numbers; the first line names the columns"},
+      {"", "", "push", "moved.yml:4:23: DIR/push.csv: an empty table"},
+      {"t,x\n0,0\n1,inf\n", "", "push",
+       "moved.yml:4:23: DIR/push.csv: row 2 holds 1, inf; finite numbers are right"},
+      {"t [m],x\n0,0\n1,1\n", "", "push",
+       "moved.yml:4:23: DIR/push.csv: the column 't [m]' is no time; s, ms, min are right"},
+      {"t [K s],x\n0,0\n1,1\n", "", "push",
+       "moved.yml:4:23: DIR/push.csv: the column 't [K s]' is no time"},
+      {"t,x [foo]\n0,0\n1,1\n", "", "push",
+       "moved.yml:4:23: DIR/push.csv: unit of the column 'x [foo]': 'foo' is not a unit"},
+      {"t,x\n0,0\n1,1\n", ", outside: repeat", "push",
+       "moved.yml:4:23: DIR/push.csv: begins with 0, ends with 1; with outside: repeat"},
+      {"t,x\n0,0\n1,1\n", ", column: y", "push",
+       "moved.yml:4:23: DIR/push.csv: no column \"y\" among t,x"},
       {"t,x\n0,0\n1,1\n", ", outside: zero", "push",
        "moved.yml:4:42: outside: found 'zero'; known: hold, repeat"},
-      {"t,x\n0,0\n1,1\n", "", "w*x", "moved.yml:8:42: displacement: 'x' is no parameter"},
+      {"t,x\n0,0\n1,1\n", "", "w*x",
+       "moved.yml:8:42: displacement: 'x' is not known here; right is an expression in t"},
       {"t,x\n0,0\n1,1\n", "", "1 m, 1 m", "moved.yml:8:39: displacement: found 3 values"},
       {"t,x\n0,0\n1,1\n", "", "log(t/1 s)*1 m",
        "moved.yml:8:25: displacement: not finite at t = 0"},
@@ -350,6 +372,11 @@ static void tables_that_are_none(void **state)
     write_moved(bad[k].more, bad[k].displacement, "0");
     refused("moved.yml", bad[k].says);
   }
+  char line[9000]; /* longer than any table's */
+  snprintf(line, sizeof line, "t,x\n0,0\n1,%0*d\n", 8500, 1);
+  put("push.csv", line);
+  write_moved("", "push", "0");
+  refused("moved.yml", "moved.yml:4:23: DIR/push.csv:3: a line of more than 8190 characters");
   put("push.csv", "t,x\n0,0\n1,1\n");
   put("moved.yml",
       "dimension: 2\nspacing: push*1 m\ntables: {push: {file: push.csv}}\n"); /* no number */
