@@ -1,0 +1,26 @@
+/* fuzz_file.h -- the bytes of one try as a file, in a folder of the process. */
+#ifndef SPH_FUZZ_FILE_H
+#define SPH_FUZZ_FILE_H
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+/* In memory where there is such a folder. */
+static inline const char *fuzz_file(const char *name, const uint8_t *data, size_t size)
+{
+  static char folder[64], path[128];
+  if (!folder[0]) {
+    snprintf(folder, sizeof folder, "%s/sphode-fuzz-XXXXXX",
+             access("/dev/shm", W_OK) ? "." : "/dev/shm");
+    if (!mkdtemp(folder)) abort();
+  }
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  FILE *file = fopen(path, "wb");
+  if (!file || fwrite(data, 1, size, file) != size || fclose(file)) abort();
+  return path;
+}
+
+#endif
