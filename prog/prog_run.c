@@ -118,8 +118,8 @@ static void tell_failure(const prog_job *j)
     sph_prog_error(PROG_OK, "%s", error.text);
   else
     sph_prog_error(PROG_OK,
-                   "%s: the particles around it, and what each term does to them; the last "
-                   "snapshot is the last good state (sphode plot %s)",
+                   "%s: the particles around it, and what each term does to them; sphode plot %s "
+                   "shows the snapshots up to the last good state",
                    path, j->directory);
 }
 

@@ -122,8 +122,11 @@ static void child(const sweep *s, const sweep_run *r, int to)
   o.output = directory;
   o.lenient = 0;
   o.report = fdopen(to, "w");
-  if (!freopen(log, "w", stdout) || dup2(fileno(stdout), 2) < 0) _exit(PROG_FAILED);
-  const int status = o.report ? sph_prog_run(&o) : PROG_FAILED;
+  int status = PROG_FAILED;
+  const int logged = freopen(log, "w", stdout) && dup2(fileno(stdout), 2) >= 0;
+  if (logged && o.report) status = sph_prog_run(&o);
+  if ((!logged || fflush(stdout) || ferror(stdout) || ferror(stderr)) && o.report)
+    fprintf(o.report, "unlogged\n");
   fflush(NULL);
   _exit(status);
 }
@@ -156,6 +159,7 @@ static void read_report(sweep_run *r)
     if (sscanf(line, "run %lf %ld %ld %lf", &r->spacing, &r->particles, &r->steps, &r->seconds) ==
         4)
       continue;
+    if (!strcmp(line, "unlogged")) r->unlogged = 1;
     int at = 0, c = r->compared;
     if (c == SWEEP_COMPARED) continue;
     if (sscanf(line, "compare %lf %lf %19s %n", &r->of[c].value, &r->of[c].bar, r->of[c].norm,
@@ -183,7 +187,8 @@ static void await(sweep *s)
       fprintf(stderr, "%s: %s\n", r->name,
               r->status == 0          ? "done"
               : r->status == PROG_BAR ? "done, misses a bar"
-                                      : "failed, see its .log");
+              : r->unlogged ? "failed, and its .log cannot be written; is there space left?"
+                            : "failed, see its .log");
   }
 }
 

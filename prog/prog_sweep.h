@@ -16,6 +16,7 @@ typedef struct sweep_run {
   char name[SWEEP_NAME];                /* of its directory, in that of the sweep */
   int process, pipe;                    /* 0, -1: not running */
   int done, status;                     /* exit status; 128 + its number: a signal */
+  int unlogged;                         /* its .log is not all there */
   double spacing, seconds;              /* [m], [s] */
   long particles, steps;
   int compared;

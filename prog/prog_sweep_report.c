@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "prog_sweep.h"
 
@@ -81,10 +82,11 @@ void sph_prog_sweep_print(const sweep *s)
   printf("results      %s\n", s->directory);
 }
 
+/* Under another name until it is whole. */
 static FILE *open_table(const sweep *s, const char *name)
 {
-  char path[4000];
-  snprintf(path, sizeof path, "%s/%s", s->directory, name);
+  char path[4100];
+  snprintf(path, sizeof path, "%s/%s.tmp", s->directory, name);
   FILE *file = fopen(path, "w");
   if (!file) sph_prog_error(PROG_FAILED, "cannot write %s: %s", path, strerror(errno));
   return file;
@@ -96,11 +98,17 @@ static void put_cell(FILE *file, const char *text)
   for (; *text; text++) fputc(*text == ',' ? ';' : *text, file);
 }
 
-static int close_table(FILE *file)
+static int close_table(const sweep *s, const char *name, FILE *file)
 {
-  const int bad = ferror(file);
-  return fclose(file) || bad ? sph_prog_error(PROG_FAILED, "cannot write a table of the sweep")
-                             : PROG_OK;
+  char path[4100], part[4110];
+  snprintf(path, sizeof path, "%s/%s", s->directory, name);
+  snprintf(part, sizeof part, "%s.tmp", path);
+  int bad = fflush(file) || ferror(file), why = bad ? errno : 0;
+  if (fclose(file) && !bad) bad = 1, why = errno;
+  if (!bad && !rename(part, path)) return PROG_OK;
+  if (!bad) why = errno;
+  unlink(part);
+  return sph_prog_error(PROG_FAILED, "cannot write %s: %s", path, strerror(why));
 }
 
 static int write_runs(const sweep *s)
@@ -132,7 +140,7 @@ static int write_runs(const sweep *s)
     }
     fputc('\n', file);
   }
-  return close_table(file);
+  return close_table(s, "sweep.csv", file);
 }
 
 /* Those that can be drawn: errors > 0 of at least two runs. */
@@ -162,7 +170,7 @@ static int write_errors(const sweep *s, const sweep_run *m)
       if (drawn(s, c)) fprintf(file, ",%.9g", s->run[k].of[c].value);
     fputc('\n', file);
   }
-  return close_table(file);
+  return close_table(s, "convergence.csv", file);
 }
 
 static int draw(const sweep *s, const sweep_run *m)

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -89,21 +88,41 @@ static int run(const sph_gnuplot *names, char *said, size_t size)
   return pid > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/* gnuplot does not tell that a disk was full: the end of a picture is there, or it is not one. */
+static int is_whole(const char *path)
+{
+  static const unsigned char end[] = {'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+  unsigned char last[sizeof end] = {0};
+  FILE *file = fopen(path, "rb");
+  const int whole = file && fseek(file, -(long)sizeof end, SEEK_END) == 0 &&
+                    fread(last, 1, sizeof end, file) == sizeof end &&
+                    !memcmp(last, end, sizeof end);
+  if (file) fclose(file);
+  return whole;
+}
+
+/* The picture that was there comes back where there is no new one. */
 static int draw(const sph_gnuplot *names, sph_error *error)
 {
-  char said[600], path[SPH_PATH];
-  struct stat info;
+  char said[600], path[SPH_PATH], old[SPH_PATH + 8];
   int status = sph_file_path(path, names->directory, names->png + 2, error);
   if (status != SPH_OK) return status;
-  unlink(path);
+  snprintf(old, sizeof old, "%s.old", path);
+  const int kept = rename(path, old) == 0;
   int code = run(names, said, sizeof said);
+  const int whole = code == 0 && is_whole(path);
+  if (!whole) unlink(path);
+  if (kept && whole) unlink(old);
+  if (kept && !whole && rename(old, path) != 0)
+    return sph_error_set(error, SPH_ERR_FILE, "cannot rename %s: %s", old, strerror(errno));
+  if (whole) return SPH_OK;
   if (said[0] == NO_PROGRAM)
     return sph_error_set(error, SPH_ERR_UNBUILT,
                          "no gnuplot found: install gnuplot-nox (Debian, Ubuntu) or gnuplot "
                          "(Fedora, Homebrew), then run: gnuplot %s in %.300s",
                          names->script + 2, names->directory);
-  if (code == 0 && stat(path, &info) == 0 && info.st_size > 0) return SPH_OK;
-  return sph_error_set(error, SPH_ERR_FILE, "gnuplot could not draw %.300s: %s", path, said);
+  return sph_error_set(error, SPH_ERR_FILE, "gnuplot could not draw %.300s: %s", path,
+                       said[0] ? said : "it was cut short; is there space left?");
 }
 
 int sph_gnuplot_run(const sph_gnuplot *names, sph_text *script, sph_text *data, sph_error *error)

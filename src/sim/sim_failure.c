@@ -146,6 +146,8 @@ void sph_sim_failure_tell(sph_sim *sim)
   describe(sim, &failure);
   sim->error = (sph_error){0};
   sim->derived = 0;
-  sph_sim_run_frame_all(sim); /* what cannot be written does not hide why the run failed */
+  /* What cannot be written does not hide why the run failed. */
+  if (sph_sim_run_frame_all(sim))
+    say(&failure, "; not all outputs have that state: %.300s", sim->error.text);
   sim->error = failure;
 }
