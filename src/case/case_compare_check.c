@@ -142,7 +142,8 @@ static int check_times(const comparer *a)
   return SPH_OK;
 }
 
-/* Of a section its times, of all others the places or times that count. */
+/* Of a section its times, without which it has no snapshots; of others the places or times that
+ * count: in time there may be none of them, which is told (case_warning.c). */
 static int check_window(const comparer *a)
 {
   const sph_case_node *node = child_of(a->node, "window"), *axis = child_of(a->kind, "axis");
@@ -160,8 +161,7 @@ static int check_window(const comparer *a)
   const double begin = window[0] * get_number(a->node, "time_scale", 1), end = sph_case_end(a->c);
   snprintf(what, sizeof what, "window: it begins at %g s, behind the end of the run, %g s", begin,
            end);
-  if (!sph_case_profile_known(a) && begin > end) return fail(a, node, what);
-  return SPH_OK;
+  return sph_case_section_known(a) && begin > end ? fail(a, node, what) : SPH_OK;
 }
 
 int sph_case_compare_check(const sph_case *c, sph_sim *sim, const char *directory, sph_error *error)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "case_schema.h"
+#include "case_solution.h"
 #include "sphode/case.h"
 
 #define child_of sph_case_reader_find
@@ -101,11 +102,17 @@ static void look_at_integrator(finder *f, const sph_case_node *map)
   without(f, map, "dt_min", !fixed, "steps that change: dt_fixed is given");
 }
 
-static void look_at_comparisons(finder *f, const sph_case_node *list)
+static void look_at_comparisons(finder *f, const sph_case_node *list, double end)
 {
   for (const sph_case_node *one = list ? list->first : NULL; one; one = one->next) {
     const char *norm = get_text(one, "norm", "rms");
+    const double scale = get_number(one, "time_scale", 1);
+    double window[3];
     without(f, one, "threshold", !strcmp(norm, "arrival"), "norm: arrival");
+    if (!sph_case_solution_find(child_of(one, "reference")->first->key) &&
+        sph_case_reader_vector(one, "window", window) && window[0] * scale > end)
+      found(f, child_of(one, "window"), "it begins at %g s, behind the end of the run, %g s",
+            window[0] * scale, end);
   }
 }
 
@@ -151,7 +158,7 @@ int sph_case_warning(const sph_case *c, int k, char *text, size_t size)
   for (const sph_case_node *g = child_of(c->root, "groups")->first; g; g = g->next)
     look_at_group(&f, g, terms);
   look_at_integrator(&f, child_of(c->root, "integrator"));
-  look_at_comparisons(&f, child_of(c->root, "compare"));
+  look_at_comparisons(&f, child_of(c->root, "compare"), sph_case_end(c));
   look_at_events(&f, child_of(c->root, "events"), sph_case_end(c));
   look_at_periods(&f, c->root, sph_case_end(c));
   return f.found > k;

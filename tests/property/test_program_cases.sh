@@ -69,7 +69,7 @@ fails "a time behind the end" "at: 3 s is behind the end of the run, 1 s" "compa
 fails "a time without a snapshot" "at: there will be no snapshot at t = 0.33 s; output: snapshots makes one each 0.05 s" "compare=[{name: a, quantity: pressure, at: [0.33 s], $column}]"
 fails "times of a table" "at: belongs to solutions in space" "compare=[{name: a, quantity: front, at: [0.5 s], reference: {csv: {file: front.csv}}}]"
 fails "a window upside down" "window: found from 1 to 0" "compare=[{name: a, quantity: front, window: [1, 0], reference: {csv: {file: front.csv}}}]"
-fails "a window behind the end" "window: it begins at 4 s, behind the end of the run, 1 s" "compare=[{name: a, quantity: front, time_scale: 2 s, window: [2, 3], reference: {csv: {file: front.csv}}}]"
+fails "a section behind the end" "window: it begins at 4 s, behind the end of the run, 1 s" "compare=[{name: a, quantity: velocity_x, time_scale: 2 s, window: [2, 3], reference: {section: {file: front.csv, axis: x, through: [0, 0]}}}]"
 fails "an axis of a section" "axis: there is no z in 2 dimensions" "compare=[{name: a, quantity: velocity_x, reference: {section: {file: front.csv, axis: z, through: [0, 0]}}}]"
 fails "a layer of no group" "layers: there is no fluid 'oil'" "compare=[{name: a, quantity: pressure, reference: {layers: {lower: water, upper: oil, meet: 0, surface: 1, gravity: 1}}}]"
 fails "a surface of no temperature" "wall tank: the temperature of its surface is -.* K at (.*) m, t = 0 s; right is > 0" "groups.tank.boundary.temperature=1 K - 1 K/m*x" \
@@ -100,6 +100,7 @@ warns "seed: does nothing without jitter" groups.water.seed=2
 warns "repulsion: does nothing without model: adami" "groups.tank.boundary={model: dbc, repulsion: 0.3}"
 warns "packing: does nothing without a shape that is filled" groups.tank.packing=
 warns "lattice: does nothing without a shape that is filled" groups.tank.lattice=hexagonal
+warns "window: it begins at 4 s, behind the end of the run, 1 s" "compare=[{name: a, quantity: front, time_scale: 2 s, window: [2, 3], reference: {csv: {file: front.csv}}}]"
 warns "threshold: does nothing without norm: arrival" "compare=[{name: a, quantity: front, threshold: 1, reference: {value: 1}}]"
 ok $good "keys that do nothing without their partner"
 good=0
