@@ -55,11 +55,11 @@ CLONES static void diffusion(const sph_term *term, const sph_tile *t)
 static const sph_term tiles[TERMS] = {
     {.name = "viscosity by tile",
      .pair = viscosity,
-     .reads = "density sound_speed",
+     .reads = "density sound_speed r2 rv F m",
      .adds = "along_r"},
-    {.name = "continuity by tile", .pair = continuity, .reads = "density", .adds = "drho"},
-    {.name = "pressure by tile", .pair = pressure, .reads = "density pressure", .adds = "push"},
-    {.name = "diffusion by tile", .pair = diffusion, .reads = "density", .adds = "drho"},
+    {.name = "continuity by tile", .pair = continuity, .reads = "density rv F V", .adds = "drho"},
+    {.name = "pressure by tile", .pair = pressure, .reads = "density pressure F V", .adds = "push"},
+    {.name = "diffusion by tile", .pair = diffusion, .reads = "density F V", .adds = "drho"},
 };
 
 static double noise(unsigned *state)
@@ -68,8 +68,8 @@ static double noise(unsigned *state)
   return (double)(*state >> 8) / (1 << 24) - 0.5;
 }
 
-/* The first `by_tile` terms as tiles, the others fused. */
-static sph_sim *make(int by_tile)
+/* The first `by_tile` terms as tiles, the others fused; or all fused, and one more by tile. */
+static sph_sim *make(int by_tile, int more)
 {
   const long across = bench_quick() ? 20 : 46;
   const double dx = 1.0 / (double)across;
@@ -87,6 +87,7 @@ static sph_sim *make(int by_tile)
     }
   }
   for (int k = 0; k < by_tile; k++) sph_sim_add_term(sim, tiles[k]);
+  if (more) sph_sim_add_term(sim, tiles[0]);
   if (by_tile < 1) sph_sim_add_term(sim, sph_term_viscosity_artificial(alpha, 0));
   if (by_tile < 2) sph_sim_add_term(sim, sph_term_continuity());
   if (by_tile < 3) sph_sim_add_term(sim, sph_term_pressure());
@@ -101,10 +102,10 @@ static double seconds_of(sph_sim *sim)
   return bench_thread_seconds() - begin;
 }
 
-static void measure(const char *name, int by_tile)
+static void measure(const char *name, int by_tile, int more)
 {
   if (!bench_wanted(name)) return;
-  sph_sim *fused = make(0), *tile = make(by_tile);
+  sph_sim *fused = make(0, 0), *tile = make(by_tile, more);
   double ratio[REPEATS];
   for (int k = -2; k < REPEATS; k++) {
     double a = seconds_of(tile), b = seconds_of(fused);
@@ -117,6 +118,7 @@ static void measure(const char *name, int by_tile)
 
 void bench_tiles(void)
 {
-  measure("tiles/3d/one-beside-fused", 1);
-  measure("tiles/3d/all-four", TERMS);
+  measure("tiles/3d/one-more", 0, 1);
+  measure("tiles/3d/one-beside-fused", 1, 0);
+  measure("tiles/3d/all-four", TERMS, 0);
 }

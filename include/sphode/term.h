@@ -45,8 +45,9 @@ typedef struct sph_tile {
   long n;
   double t, h;                 /* time [s], smoothing length [m] */
   const char *target, *source; /* names of the groups of i, of j */
-  const double *r[3], *v[3];   /* x_i - x_j [m], v_i - v_j [m/s]; NULL for d >= dim */
-  const double *r2, *rv;       /* r.r [m^2], r.v [m^2/s] */
+  /* Of the pair; NULL for what no term's `reads` names, where it names any of these: */
+  const double *r[3], *v[3]; /* x_i - x_j [m], v_i - v_j [m/s]; NULL for d >= dim */
+  const double *r2, *rv;     /* r.r [m^2], r.v [m^2/s] */
   /* The same as viscous terms see them: other ones at no-slip walls. */
   const double *v_viscous[3], *rv_viscous;
   const double *F;                 /* F = (dW/dr)/r <= 0: grad_i W = F r [m^-(d+2)] */
@@ -126,7 +127,9 @@ struct sph_term {
   /* Pairs of fluid particles with fluid and wall ones, but none with dust, tile by tile, beside the
    * built-in terms.  Called from several threads at once: read ctx, do not write to it. */
   void (*pair)(const sph_term *term, const sph_tile *tile);
-  /* Fields that pair wants of both ends, as "density sound_speed".  Of a term without pair: ""
+  /* What pair reads: fields of both ends, as "density sound_speed", in the order of tile->i and j;
+   * and of the pair, as "r2 rv F": where any of these is named only they are filled in, which is
+   * much of what a tile costs, else all.  Of a term without pair: ""
    * where body and dt_max read nothing that is not integrated (p, c, u beside another energy, a
    * summed density): a part of f with it then costs no more.  Copied. */
   const char *reads;

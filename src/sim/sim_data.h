@@ -44,7 +44,7 @@ typedef struct sph_part {
   int only_walls; /* pairs: of fluids with walls alone */
   /* Registered pair terms, the fields that they read, what they add to. */
   int tiles;
-  unsigned tile_fields, tile_adds;
+  unsigned tile_fields, tile_adds, tile_show;
   sph_tile_term tile[SPH_TILE_TERMS];
 } sph_part;
 

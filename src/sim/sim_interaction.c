@@ -115,41 +115,25 @@ tile_constants sph_sim_interaction_tile(const sph_evaluation *e, const fluid_con
                       .h = sim->h,
                       .target = sim->group[target]->name,
                       .source = sim->group[source]->name,
-                      .slots = (int)sim->sorted[target].stride,
                       .scalars = sim->terms.scalars,
                       .isothermal = sph_group_data_isothermal(sim->group[source]) ||
                                     sim->group[source]->model == SPH_MODEL_MIRROR,
                       .fields = part->tile_fields,
                       .adds = part->tile_adds,
+                      .show = part->tile_show,
                       .terms = part->tiles};
   memcpy(k.term, part->tile, sizeof k.term);
   return k;
 }
 
-/* Built-in terms alone. */
-static void add_fluid(sph_sim *sim, const fluid_constants *k, int target, int source)
-{
-  if (k->terms & SPH_PAIR_TERMS)
-    sph_sim_pairs_loop(sim, sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, k->terms),
-                       target, source, k);
-}
-
-/* Registered pair terms beside the built-in ones. */
-static void add_tiles(sph_evaluation *e, const fluid_constants *fluid, int target, int source)
-{
-  sph_sim *sim = e->sim;
-  const tile_constants k = sph_sim_interaction_tile(e, fluid, target, source);
-  sph_sim_pairs_loop(sim, sph_tile_loop(sim->isa, sim->kernel_number, sim->dim), target, source,
-                     &k);
-}
-
 void sph_sim_interaction_tiles(sph_evaluation *e, int target, int source)
 {
-  const sph_sim *sim = e->sim;
-  fluid_constants k =
+  sph_sim *sim = e->sim;
+  const fluid_constants fluid =
       sph_sim_interaction_constants(sim, e->part, sim->group[target], sim->group[source]);
-  k.terms &= ~(unsigned)(SPH_PAIR_TERMS | SPH_CORRECTED);
-  add_tiles(e, &k, target, source);
+  const tile_constants k = sph_sim_interaction_tile(e, &fluid, target, source);
+  sph_sim_pairs_loop(sim, sph_tile_loop(sim->isa, sim->kernel_number, sim->dim), target, source,
+                     &k);
 }
 
 void sph_sim_interaction_add(sph_evaluation *e, int target, int source)
@@ -157,13 +141,10 @@ void sph_sim_interaction_add(sph_evaluation *e, int target, int source)
   sph_sim *sim = e->sim;
   const fluid_constants k =
       sph_sim_interaction_constants(sim, e->part, sim->group[target], sim->group[source]);
-  const int tiles = e->part->tiles && !sim->group[target]->eos.dust;
-  if (!tiles || (k.terms & SPH_CORRECTED)) add_fluid(sim, &k, target, source);
-  if (!tiles) return;
-  if (k.terms & SPH_CORRECTED)
-    sph_sim_interaction_tiles(e, target, source); /* no matrices in tiles */
-  else
-    add_tiles(e, &k, target, source);
+  if (k.terms & SPH_PAIR_TERMS)
+    sph_sim_pairs_loop(sim, sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, k.terms), target,
+                       source, &k);
+  if (e->part->tiles && !sim->group[target]->eos.dust) sph_sim_interaction_tiles(e, target, source);
 }
 
 /* ---- which fields tiles hold ---- */
@@ -181,31 +162,55 @@ static int field_number(const sph_sim *sim, const char *name)
   return scalar < 0 ? -1 : SPH_TILE_SCALAR + scalar;
 }
 
-/* "density sound_speed": the fields of one term. */
-static int read_fields(sph_sim *sim, sph_part *part, const sph_called_term *call,
-                       sph_tile_term *tile)
+/* Bit of a name among some, or 0. */
+static unsigned bit_of(const char *word, const char *const *names, int n)
 {
-  char text[SPH_TERM_READS_MAX], *rest = NULL;
-  memcpy(text, call->reads, sizeof text);
-  for (char *word = strtok_r(text, " ,", &rest); word; word = strtok_r(NULL, " ,", &rest)) {
-    int field = field_number(sim, word);
-    if (field < 0)
-      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
-                          "term %s reads \"%.60s\"; known: density, pressure, sound_speed, energy, "
-                          "temperature and scalars of terms",
-                          call->name, word);
-    if ((field == SPH_TILE_ENERGY || field == SPH_TILE_TEMPERATURE) &&
-        !(sim->loop_terms & SPH_THERMAL))
-      return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "term %s reads %s, which no fluid has", call->name,
-                          word);
-    if (tile->reads == SPH_TILE_READS)
-      return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "term %s reads more than %d fields", call->name,
-                          SPH_TILE_READS);
-    tile->read[tile->reads++] = (unsigned char)field;
-    part->tile_fields |= 1u << field;
-    sim->needs_temperature |= field == SPH_TILE_TEMPERATURE;
-  }
+  for (int k = 0; k < n; k++)
+    if (!strcmp(word, names[k])) return 1u << k;
+  return 0;
+}
+
+static int read_field(sph_sim *sim, sph_part *part, const char *term, const char *word,
+                      sph_tile_term *tile)
+{
+  int field = field_number(sim, word);
+  if (field < 0)
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                        "term %s reads \"%.60s\"; known: density, pressure, sound_speed, energy, "
+                        "temperature, scalars of terms, and of the pair r, v, r2, rv, v_viscous, "
+                        "rv_viscous, F, V, m",
+                        term, word);
+  if ((field == SPH_TILE_ENERGY || field == SPH_TILE_TEMPERATURE) &&
+      !(sim->loop_terms & SPH_THERMAL))
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "term %s reads %s, which no fluid has", term, word);
+  if (tile->reads == SPH_TILE_READS)
+    return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "term %s reads more than %d fields", term,
+                        SPH_TILE_READS);
+  tile->read[tile->reads++] = (unsigned char)field;
+  part->tile_fields |= 1u << field;
+  sim->needs_temperature |= field == SPH_TILE_TEMPERATURE;
   return SPH_OK;
+}
+
+/* "density sound_speed r2 F": the fields of one term, and what it reads of the pair. */
+static int read_reads(sph_sim *sim, sph_part *part, const sph_called_term *call,
+                      sph_tile_term *tile)
+{
+  static const char *const of_pair[] = {"r",          "v", "r2", "rv", "v_viscous",
+                                        "rv_viscous", "F", "V",  "m"}; /* enum sph_tile_show */
+  char text[SPH_TERM_READS_MAX], *rest = NULL;
+  unsigned show = 0;
+  int status = SPH_OK;
+  memcpy(text, call->reads, sizeof text);
+  for (char *word = strtok_r(text, " ,", &rest); word && !status;
+       word = strtok_r(NULL, " ,", &rest)) {
+    const int field = field_number(sim, word); /* a scalar may have the name of one of a pair */
+    const unsigned bit = field < 0 ? bit_of(word, of_pair, sizeof of_pair / sizeof *of_pair) : 0;
+    show |= bit;
+    if (!bit) status = read_field(sim, part, call->name, word, tile);
+  }
+  part->tile_show |= show ? show : SPH_TILE_PAIR;
+  return status;
 }
 
 /* "along_r du": what a term adds to. */
@@ -216,15 +221,26 @@ static int read_adds(sph_sim *sim, sph_part *part, const sph_called_term *call)
   memcpy(text, call->adds, sizeof text);
   if (!call->term.adds) part->tile_adds |= SPH_TILE_ALL;
   for (char *word = strtok_r(text, " ,", &rest); word; word = strtok_r(NULL, " ,", &rest)) {
-    int k = 0;
-    while (k < 6 && strcmp(word, names[k])) k++;
-    if (k == 6)
+    const unsigned bit = bit_of(word, names, sizeof names / sizeof *names);
+    if (!bit)
       return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                           "term %s adds to \"%.60s\"; known: push, along_r, along_v, drho, du, ds",
                           call->name, word);
-    part->tile_adds |= 1u << k;
+    part->tile_adds |= bit;
   }
   return SPH_OK;
+}
+
+/* What is shown for other than the terms: where viscous terms see what others do, it stands there
+ * once; the work of forces. */
+static unsigned shown_besides(const sph_part *part)
+{
+  unsigned show = 0;
+  if (part->tile_show & SPH_TILE_V_VISCOUS) show |= SPH_TILE_V;
+  if (part->tile_show & SPH_TILE_RV_VISCOUS) show |= SPH_TILE_RV;
+  if (part->tile_adds & SPH_TILE_ALONG_R) show |= SPH_TILE_RV;
+  if (part->tile_adds & SPH_TILE_ALONG_V) show |= SPH_TILE_V;
+  return show;
 }
 
 int sph_sim_interaction_prepare(sph_sim *sim, sph_part *part)
@@ -236,8 +252,9 @@ int sph_sim_interaction_prepare(sph_sim *sim, sph_part *part)
     sph_tile_term *tile = &part->tile[part->tiles++];
     *tile = (sph_tile_term){.term = &call->term, .scalar = call->scalar};
     if (call->scalar >= 0) part->tile_fields |= 1u << (SPH_TILE_SCALAR + call->scalar);
-    status = read_fields(sim, part, call, tile);
+    status = read_reads(sim, part, call, tile);
     if (!status) status = read_adds(sim, part, call);
   }
+  part->tile_show |= shown_besides(part);
   return status;
 }

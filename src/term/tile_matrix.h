@@ -25,7 +25,8 @@ typedef struct tile_matrix {
 static __attribute__((noinline, unused)) void tile_jacobian(int dim, tile_matrix *it, int n)
 {
   const tile_constants *k = it->k;
-  sph_tile tile = tile_open(dim, k, &it->rows, n);
+  sph_tile tile = tile_open(dim, k, &it->rows);
+  tile.n = (long)n * SPH_LANES;
   double *to = (double *)it->rows.push;
   memset(to, 0, (size_t)n * sizeof(vec));
   const sph_term_jacobian jacobian = {.v = k->unknown == TILE_VELOCITY ? to : NULL,
@@ -39,8 +40,9 @@ static __attribute__((noinline, unused)) void tile_jacobian(int dim, tile_matrix
   }
 }
 
-BODY void tile_matrix_take(int dim, tile_matrix *it, int n)
+BODY void tile_matrix_take(int dim, int kernel, const vec *v, tile_matrix *it, int n)
 {
+  tile_fill(dim, kernel, it->k, v, &it->rows, n);
   tile_jacobian(dim, it, n);
   for (int q = 0; q < n; q++) {
     const vec value = it->weight * it->rows.push[q];
@@ -83,44 +85,35 @@ BODY void tile_matrix_close(int dim, tile_matrix *it, long b)
   }
 }
 
-BODY void tile_matrix_row(int dim, int kernel, tile_matrix *it, const vec *slot_i,
-                          const vec *slot_j, const double *record, int n)
-{
-  const tile_constants *k = it->k;
-  const unsigned terms = k->fluid.terms;
-  const particle i = fluid_particle(dim, terms, slot_i), j = fluid_particle(dim, terms, slot_j);
-  const pair p = fluid_pair_common(dim, kernel, terms, &k->fluid, &i, &j);
-  tile_row(dim, terms, k, &p, &i, &j, record, &it->rows, n);
-}
-
 /* All pairs of one block. */
 BODY void tile_matrix_block(int dim, int kernel, tile_matrix *it, long b)
 {
   const sph_pair_task *t = it->task->pairs;
-  const int slots = slot_scalar(dim);
   const double *record = t->target + b * SPH_LANES * t->target_stride;
   const unsigned char *mask = it->task->mask ? it->task->mask + it->task->first[b] : NULL;
-  vec home[SPH_PAIR_SLOTS], i[SPH_PAIR_SLOTS], j[SPH_PAIR_SLOTS];
+  vec home[3], x[3], v[3];
   int n = 0;
-  for (int s = 0; s < slots; s++) home[s] = v_gather(record + s, t->target_stride);
+  for (int d = 0; d < dim; d++) {
+    home[d] = v_gather(record + d, t->target_stride);
+    v[d] = v_gather(record + slot_v(dim) + d, t->target_stride);
+  }
   tile_targets(dim, it->k, record, t->target_stride, &it->rows);
   tile_matrix_open(dim, it, b);
   for (long r = t->first[b]; r < t->first[b + 1]; r++) {
     const sph_run run = t->runs[r];
     const double *source = t->source + (long)run.start * t->source_stride;
-    for (int s = 0; s < slots; s++) i[s] = s < dim ? home[s] - t->shift[run.image][s] : home[s];
+    for (int d = 0; d < dim; d++) x[d] = home[d] - t->shift[run.image][d];
     for (int q = 0; q < (int)run.count; q++, source += t->source_stride) {
       const unsigned char bits = mask ? *mask++ : 255;
       if (!bits) continue;
-      for (int s = 0; s < slots; s++) j[s] = v_set(source[s]);
       it->bits[n] = bits;
-      tile_matrix_row(dim, kernel, it, i, j, source, n++);
+      tile_row(dim, x, source, &it->rows, n++);
       if (n < SPH_TILE_ROWS) continue;
-      tile_matrix_take(dim, it, n);
+      tile_matrix_take(dim, kernel, v, it, n);
       n = 0;
     }
   }
-  if (n > 0) tile_matrix_take(dim, it, n);
+  if (n > 0) tile_matrix_take(dim, kernel, v, it, n);
   tile_matrix_close(dim, it, b);
 }
 

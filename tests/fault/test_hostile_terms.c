@@ -382,10 +382,9 @@ static void reads(void **state)
                              "pressure sound_speed";
   char longer[300] = {0};
   memset(longer, 'a', 256);
-  refused(
-      liquid(), (sph_term){.name = "dye", .pair = pair, .reads = "density colour"},
-      "term dye reads \"colour\"; known: density, pressure, sound_speed, energy, temperature and "
-      "scalars of terms");
+  refused(liquid(), (sph_term){.name = "dye", .pair = pair, .reads = "density colour"},
+          "term dye reads \"colour\"; known: density, pressure, sound_speed, energy, temperature, "
+          "scalars of terms, and of the pair r, v, r2, rv, v_viscous, rv_viscous, F, V, m");
   refused(liquid(), (sph_term){.name = "dye", .pair = pair, .reads = "energy"},
           "term dye reads energy, which no fluid has");
   refused(gas(), (sph_term){.name = "dye", .pair = pair, .reads = many},

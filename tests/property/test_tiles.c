@@ -73,18 +73,19 @@ static void conduction(const sph_term *term, const sph_tile *t)
 static const double eta = 2, c0 = 10, kappa = 15;
 
 typedef struct both {
-  const char *name, *reads, *adds;
+  const char *name, *reads, *named, *adds; /* named: with what is read of the pair */
   void (*pair)(const sph_term *term, const sph_tile *tile);
   const double *ctx;
   int thermal;
 } both;
 
 static const both all[] = {
-    {"water", "density pressure", "push drho du", water, NULL, -1},
-    {"artificial", "density,sound_speed", "along_r", artificial, NULL, -1},
-    {"morris", "density", "along_v", morris, &eta, -1},
-    {"molteni", "density", NULL, molteni, &c0, 0},
-    {"conduction", "density temperature", "du", conduction, &kappa, 1},
+    {"water", "density pressure", "density rv F pressure V m", "push drho du", water, NULL, -1},
+    {"artificial", "density,sound_speed", "density sound_speed rv_viscous r2 m F", "along_r",
+     artificial, NULL, -1},
+    {"morris", "density", "density m F", "along_v", morris, &eta, -1},
+    {"molteni", "density", "V F density", NULL, molteni, &c0, 0},
+    {"conduction", "density temperature", "V,density,temperature,F", "du", conduction, &kappa, 1},
 };
 enum { TERMS = sizeof all / sizeof *all };
 
@@ -102,8 +103,8 @@ static void add_fused(sph_sim *sim, int k)
   if (!strcmp(name, "conduction")) sph_sim_add_term(sim, sph_term_conduction());
 }
 
-/* Terms whose bit is set as tiles, the others fused. */
-static scene_rates rates(scene *s, unsigned tiles, scene_options options)
+/* Terms whose bit is set as tiles, which name what they read of pairs or not, the others fused. */
+static scene_rates rates_of(scene *s, unsigned tiles, int named, scene_options options)
 {
   s->o.group[3].conductivity = 0; /* the lid takes the fluid's: conduction here knows one kappa */
   s->o.group[2].repulsion = s->o.group[3].repulsion = 0; /* of the fused pressure alone */
@@ -116,7 +117,7 @@ static scene_rates rates(scene *s, unsigned tiles, scene_options options)
     }
     sph_sim_add_term(sim, (sph_term){.name = all[k].name,
                                      .pair = all[k].pair,
-                                     .reads = all[k].reads,
+                                     .reads = named ? all[k].named : all[k].reads,
                                      .adds = all[k].adds,
                                      .ctx = (void *)(size_t)all[k].ctx});
   }
@@ -124,6 +125,11 @@ static scene_rates rates(scene *s, unsigned tiles, scene_options options)
   scene_rates r = scene_evaluate(s, sim);
   sph_sim_free(sim);
   return r;
+}
+
+static scene_rates rates(scene *s, unsigned tiles, scene_options options)
+{
+  return rates_of(s, tiles, 0, options);
 }
 
 static double largest(const double *a, long n)
@@ -205,6 +211,49 @@ static void every_width(void **state)
   }
   scene_rates_free(&fused);
   scene_free(&s);
+}
+
+/* What is not named is not filled in, and changes nothing. */
+static void named_pairs(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 6; k++) {
+    scene_def def = scene_number(k, k % 2);
+    scene s;
+    scene_make(&s, &def);
+    for (unsigned tiles = 1; tiles <= 31; tiles = tiles < 16 ? 2 * tiles : tiles + 15) {
+      scene_rates plain = rates(&s, tiles, (scene_options){0});
+      scene_rates named = rates_of(&s, tiles, 1, (scene_options){0});
+      assert_true(scene_rates_same(&plain, &named));
+      scene_rates_free(&plain);
+      scene_rates_free(&named);
+    }
+    scene_free(&s);
+  }
+}
+
+static void sees_little(const sph_term *term, const sph_tile *t)
+{
+  int *seen = term->ctx;
+  *seen = t->V && t->i[0] && !t->F && !t->r2 && !t->v[0] && !t->rv && !t->rv_viscous && !t->m;
+}
+
+static void the_rest_is_null(void **state)
+{
+  (void)state;
+  int seen = 0;
+  sph_sim *sim =
+      sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 0.1, .periodic = {1, 1}, .length = {1, 1}});
+  sph_group *group = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1, 1}, 1000);
+  sph_group_set_eos(group, sph_eos_tait(1000, 10, 7));
+  sph_sim_add_term(sim, (sph_term){.name = "look",
+                                   .pair = sees_little,
+                                   .reads = "density V",
+                                   .adds = "drho",
+                                   .ctx = &seen});
+  assert_int_equal(sph_sim_evaluate(sim), SPH_OK);
+  assert_true(seen);
+  sph_sim_free(sim);
 }
 
 static void any_threads(void **state)
@@ -360,6 +409,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(equal_to_fused), cmocka_unit_test(every_width),
+      cmocka_unit_test(named_pairs),    cmocka_unit_test(the_rest_is_null),
       cmocka_unit_test(any_threads),    cmocka_unit_test(dust_is_left_alone),
       cmocka_unit_test(scalar_rates),   cmocka_unit_test(scalar_decays),
   };
