@@ -113,14 +113,15 @@ SPH_API void sph_sim_balance(const sph_sim *sim, sph_balance *balance);
 
 typedef struct sph_sim_stats {
   sph_step_stats step;
-  double pairs;   /* directed pairs inside the support, summed over right-hand sides (estimated from
-                     each list) */
-  double seconds; /* wall time inside sph_sim_run and sph_sim_step */
+  double
+      pairs; /* directed pairs inside the support, summed over right-hand sides (estimated: counted
+                     at every sixteenth list build) */
+  double seconds;       /* wall time inside sph_sim_run and sph_sim_step */
   double rhs_seconds;   /* of these, inside the right-hand side, and inside implicit stages, */
   double solve_seconds; /* which evaluate it, too */
   long matrices;        /* filled for them */
   long list_builds;
-  long near;    /* particles nearer than 0.1 dx to another, at the last list build */
+  long near;    /* particles nearer than 0.1 dx to another, when pairs were counted last */
   double bytes; /* memory held */
 } sph_sim_stats;
 SPH_API void sph_sim_get_stats(const sph_sim *sim, sph_sim_stats *stats);

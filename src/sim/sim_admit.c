@@ -21,7 +21,7 @@ int sph_sim_admit_retry(sph_sim *sim, const char *format, ...)
   return SPH_RETRY;
 }
 
-/* After a list build: pairs inside the support, and particles nearer than 0.1 dx to another.  These
+/* After some list builds: pairs inside the support, and particles nearer than 0.1 dx to another.  These
  * are reported, not refused: lone particles of spray may stick together, and a smaller step would
  * not part them. */
 static void count(sph_evaluation *e)

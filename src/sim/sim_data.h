@@ -181,8 +181,8 @@ struct sph_sim {
   double
       limit[SPH_BOUND_COUNT]; /* step limits of the last evaluation, but not by fast terms, [s] */
   double limit_fast[SPH_BOUND_COUNT]; /* ... of the fast part */
-  long near;        /* particles nearer than 0.1 dx to another, at the last list build */
-  double pairs_now; /* directed pairs inside the support, at the last list build */
+  long near;                          /* particles nearer than 0.1 dx to another, */
+  double pairs_now; /* directed pairs inside the support, both when they were counted last */
   double pairs, seconds, rhs_seconds, solve_seconds; /* solve: implicit stages, with f in them */
   long list_builds, revision, matrices;              /* matrices: that implicit stages filled */
 };

@@ -6,7 +6,7 @@
 #include "keep.h"
 #include "sim_mirror.h"
 
-enum { PARALLEL_MIN = 4096 };
+enum { PARALLEL_MIN = 4096, COUNTED = 16 }; /* builds of which one's pairs are counted */
 
 /* Largest squared displacement of a group since the build; NaN where a position is. */
 static double moved2(const sph_sim *sim, int g, const sph_view *view)
@@ -63,8 +63,8 @@ static int build(sph_sim *sim)
         sph_neighbors_build(sim->neighbors, g, s, &error);
   if (error.status == SPH_RETRY) return sph_sim_admit_retry(sim, "%s", error.text);
   if (error.status) return sph_error_set(&sim->error, error.status, "%s", error.text);
-  sim->listed = sim->fresh = 1;
-  sim->list_builds++;
+  sim->listed = 1;
+  sim->fresh |= sim->list_builds++ % COUNTED == 0;
   return SPH_OK;
 }
 
