@@ -94,17 +94,29 @@ static const command commands[] = {
     {"plot", "DIR", "Fn", sph_prog_plot, "draw a run again",
      "      --field NAME       colour: velocity, pressure, density, energy, velocity_x, ...\n"
      "      --frames N         snapshots on the sheet\n"},
-    {"export", "DIR", "ocvGLSq", sph_prog_export,
-     "snapshots as files that other tools read: CSV, VTU, GADGET's HDF5",
+    {"movie", "DIR", "oFEBAq", sph_prog_movie,
+     "draw all snapshots of a run, as an mp4 or animated PNG",
+     "      --field NAME       colour: velocity, pressure, density, energy, velocity_x, ...\n"
+     "      --range FROM:TO    of the colours, in SI units, as 0:2000 (default: all that the "
+     "field\n"
+     "                         has, the same in all frames)\n"
+     "      --size WIDTHxHEIGHT  pixels, as 1280x720 (default: what the picture needs)\n"
+     "      --rate N           frames a second (default: 25)\n"
+     "  -o, --output FILE      x.mp4, or animated PNG: x.png, x.apng (default: DIR/movie.mp4)\n"
+     "  -q, --quiet            nothing is told\n"
+     "\n"
+     "Wants gnuplot and ffmpeg.\n"},
+    {"export", "DIR", "ocvGHLSq", sph_prog_export,
+     "snapshots as files that other tools read: CSV, VTU, GADGET's HDF5, SPLASH's text",
      "  DIR is the directory of a run, or one of its snapshots.\n"
      "\n"
-     "      --csv              a table a snapshot and kind, and times.csv: gnuplot, SPLASH, "
-     "pandas\n"
+     "      --csv              a table a snapshot and kind, and times.csv: gnuplot, pandas\n"
      "      --vtu              VTK's XML, and series with their times, .pvd: ParaView, VisIt\n"
-     "      --gadget           GADGET's HDF5 layout: yt, pynbody, SPLASH\n"
+     "      --gadget           GADGET's HDF5 layout: yt, pynbody\n"
+     "      --splash           columns of text with the names that SPLASH knows, and the time\n"
      "      --fields LIST      names with commas between, as velocity,density (default: all)\n"
      "      --float32          numbers of single precision\n"
-     "  -o, --output DIR       where to (default: DIR/csv, DIR/vtu, DIR/gadget)\n"
+     "  -o, --output DIR       where to (default: DIR/csv, DIR/vtu, ...)\n"
      "  -q, --quiet            nothing is told\n"},
     {"work-precision", "CASE.yml", "ostqfFITCRUNXM", sph_prog_work_precision,
      "what each integrator needs for which temporal error",
@@ -165,12 +177,16 @@ static const struct option options[] = {
     {"q", required_argument, NULL, 'Q'},
     {"vtu", no_argument, NULL, 'v'},
     {"gadget", no_argument, NULL, 'G'},
+    {"splash", no_argument, NULL, 'H'},
     {"fields", required_argument, NULL, 'L'},
     {"float32", no_argument, NULL, 'S'},
     {"spacing", required_argument, NULL, 'P'},
     {"dim", required_argument, NULL, 'D'},
     {"field", required_argument, NULL, 'F'},
     {"frames", required_argument, NULL, 'n'},
+    {"range", required_argument, NULL, 'E'},
+    {"size", required_argument, NULL, 'B'},
+    {"rate", required_argument, NULL, 'A'},
     {"integrators", required_argument, NULL, 'I'},
     {"tolerances", required_argument, NULL, 'T'},
     {"cfl", required_argument, NULL, 'C'},
@@ -269,12 +285,16 @@ static int take(prog_options *o, int letter, const char *value)
   case 'c': o->csv = 1; break;
   case 'v': o->vtu = 1; break;
   case 'G': o->gadget = 1; break;
+  case 'H': o->splash = 1; break;
   case 'L': o->fields = value; break;
   case 'S': o->single = 1; break;
   case 'Q': o->q = value; break;
   case 'P': o->spacing = value; break;
   case 'D': return number("dim", value, 3, &o->dim);
   case 'F': o->field = value; break;
+  case 'E': o->range = value; break;
+  case 'B': o->size = value; break;
+  case 'A': return number("rate", value, PROG_RATE, &o->rate);
   case 's':
     if (o->sets == PROG_SETS)
       return sph_prog_error(PROG_USAGE, "more than %d times --set", PROG_SETS);

@@ -13,7 +13,8 @@ enum {
   PROG_SECONDS = 1000000,
   PROG_VARIED = 4,
   PROG_JOBS = 256,
-  PROG_PORTS = 65535
+  PROG_PORTS = 65535,
+  PROG_RATE = 1000
 }; /* at most, as in the library */
 
 typedef struct prog_options {
@@ -29,8 +30,11 @@ typedef struct prog_options {
   int dim;             /* 0: 2 and 3 */
   const char *field;   /* NULL: that of the case */
   int frames;          /* 0: that of the case */
+  /* movie: NULL, 0: the defaults */
+  const char *range, *size;
+  int rate;
   /* export */
-  int vtu, gadget, single;
+  int vtu, gadget, splash, single;
   const char *fields; /* NULL: all */
   /* work-precision: lists with commas between; NULL: the defaults. */
   const char *integrators, *tolerances, *cfl, *reference;
@@ -58,6 +62,7 @@ int sph_prog_restart(const prog_options *o);
 int sph_prog_check(const prog_options *o);
 int sph_prog_info(const prog_options *o);
 int sph_prog_plot(const prog_options *o);
+int sph_prog_movie(const prog_options *o);
 int sph_prog_export(const prog_options *o);
 int sph_prog_work_precision(const prog_options *o);
 int sph_prog_spectrum(const prog_options *o);

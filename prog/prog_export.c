@@ -18,9 +18,9 @@ int sph_prog_export(const prog_options *o)
 {
   char directory[4096];
   sph_error error = {0};
-  if (o->csv + o->vtu + o->gadget != 1)
-    return sph_prog_error(PROG_USAGE, "export wants one of --csv, --vtu, --gadget");
-  const char *format = o->csv ? "csv" : o->vtu ? "vtu" : "gadget";
+  if (o->csv + o->vtu + o->gadget + o->splash != 1)
+    return sph_prog_error(PROG_USAGE, "export wants one of --csv, --vtu, --gadget, --splash");
+  const char *format = o->csv ? "csv" : o->vtu ? "vtu" : o->gadget ? "gadget" : "splash";
   if (!o->output && directory_of(o->what, format, directory)) return PROG_FAILED;
   const sph_export_def def = {.path = o->what,
                               .format = format,

@@ -2,12 +2,14 @@
  *
  *   csv      snapshot_0000.csv, walls_0000.csv, ...: a line with names and units of the columns
  *            ("x [m],y [m],velocity_x [m/s],..."), then a row a particle; times.csv tells the time
- *            of each.  For gnuplot, SPLASH, pandas, spreadsheets
+ *            of each.  For gnuplot, pandas, spreadsheets
  *   vtu      snapshot_0000.vtu, walls_0000.vtu, ...: VTK's XML, particles as vertices, fields named
  *            with their units; snapshot.pvd, walls.pvd are the series with their times.  For
  *            ParaView, VisIt, VTK
  *   gadget   snapshot_0000.hdf5, ...: GADGET's HDF5 layout alone, PartType0 fluids and PartType1
- *            walls, with the header of the snapshot.  For yt, pynbody, SPLASH */
+ *            walls, with the header of the snapshot.  For yt, pynbody
+ *   splash   snapshot_0000.txt, walls_0000.txt, ...: columns of text under the names that SPLASH
+ *            knows, and the time; all digits (it drops the exponents of a CSV) */
 #ifndef SPHODE_EXPORT_H
 #define SPHODE_EXPORT_H
 #include "sphode/base.h"
@@ -18,7 +20,7 @@ extern "C" {
 
 typedef struct sph_export_def {
   const char *path;      /* a snapshot, or a directory: all of its snapshots */
-  const char *format;    /* "csv", "vtu", "gadget" */
+  const char *format;    /* "csv", "vtu", "gadget", "splash" */
   const char *directory; /* of the new files; made if need be */
   /* Names of fields with spaces or commas between them ("velocity density"), besides the position;
    * NULL: all.  A field that walls do not have is written for the fluids alone. */

@@ -14,6 +14,10 @@ extern "C" {
  *                   energy; other fields (pressure, ...) are passed over, other columns refused
  *   .hdf, .hdf5     GADGET's layout, as snapshots of sphode: Coordinates, and Velocities, Density,
  *                   Masses (or MassTable of the header), InternalEnergy where they are there
+ *   .vtu, .vtp      VTK's XML, as of `sphode export --vtu` and ParaView (ascii, binary, appended;
+ *                   zlib): Points, and velocity, density, mass, energy at them, or by the names of
+ *                   snapshots; other data are passed over.  Needs a library built with Expat
+ *                   (SPH_ERR_UNBUILT)
  *
  * in SI units: a unit of another name is an error.  Without a mass it is rho0 dx^dim, without a
  * density rho0, without a velocity 0.  The energy (u) is taken by fluids whose equation of state

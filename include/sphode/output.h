@@ -43,7 +43,8 @@ typedef struct sph_output {
  * directory/snapshot_0000.hdf, ...: HDF5, one file a frame; the directory is made.
  *   /Header /PartType0 (fluids, group after group) /PartType1 (walls): as GADGET's; SI units
  *              (coordinates inside the box in periodic directions)
- *   /VTKHDF    the fluids for ParaView: hard links to the data of /PartType0
+ *   /VTKHDF    the fluids for ParaView: hard links to the data of /PartType0, named with units
+ *              ("Velocities [m per s]": no name in HDF5 has a "/")
  *   /Groups    names and kinds; the dataset "Group" of a particle counts them from 0
  *   /Code /Parameters /Units   where the numbers come from
  * walls_0000.hdf: the walls for ParaView, a link into the snapshot.  ParaView opens
@@ -200,6 +201,19 @@ SPH_API int sph_plot_particles(const char *path, const char *field, const char *
  * scale. */
 SPH_API int sph_plot_frames(const char *directory, const char *field, int n, const char *png,
                             sph_error *error);
+/* All snapshots of a directory as a movie, by gnuplot and ffmpeg (SPH_ERR_UNBUILT where one is not
+ * there): each as sph_plot_particles draws it, all with the same colours and axes.  Its frames are
+ * drawn into the folder PATH.frames, which is removed in the end. */
+typedef struct sph_movie_def {
+  const char *directory;
+  const char *field; /* NULL: "velocity" */
+  const char *path;  /* of the movie: .mp4, or .png, .apng: animated PNG */
+  double from, to;   /* of the colours [SI]; from == to: what the field has in all frames */
+  int width, height; /* [pixels]; 0: at most 1200, what the picture needs */
+  double rate;       /* frames a second; 0: 25 */
+} sph_movie_def;
+/* Returns the number of frames, or < 0. */
+SPH_API int sph_movie_write(const sph_movie_def *def, sph_error *error);
 /* Snapshots in a directory; < 0: a status. */
 SPH_API int sph_plot_count(const char *directory, sph_error *error);
 

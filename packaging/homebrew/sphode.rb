@@ -17,6 +17,9 @@ class Sphode < Formula
   depends_on "suite-sparse"
   depends_on "sundials"
 
+  uses_from_macos "expat"
+  uses_from_macos "zlib"
+
   on_macos do
     depends_on "libomp"
   end

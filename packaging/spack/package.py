@@ -25,6 +25,8 @@ class Sphode(AutotoolsPackage):
     depends_on("hdf5 ~mpi")
     depends_on("libyaml")
     depends_on("muparser")
+    depends_on("expat")
+    depends_on("zlib-api")
     depends_on("libmicrohttpd", when="+live")
     depends_on("cmocka", type="test")
     depends_on("gnuplot", type="run", when="+gnuplot")

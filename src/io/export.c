@@ -10,9 +10,11 @@
 #include "snapshot.h"
 #include "words.h"
 
-static const char *const formats[] = {"csv", "vtu", "gadget"};
-static const char *const endings[] = {"csv", "vtu", "hdf5"};
-enum { CSV, VTU, GADGET, FORMATS };
+static const char *const formats[] = {"csv", "vtu", "gadget", "splash"};
+static const char *const endings[] = {"csv", "vtu", "hdf5", "txt"};
+enum { CSV, VTU, GADGET, SPLASH, FORMATS };
+static void (*const write_table[FORMATS])(const sph_table *table, int single, sph_text *text) = {
+    [CSV] = sph_export_csv, [VTU] = sph_export_vtu, [SPLASH] = sph_export_splash};
 static const char *const parts[SPH_PARTS] = {"snapshot", "walls"};
 
 typedef struct exporter {
@@ -49,7 +51,7 @@ static int write_tables(exporter *e, long number, const sph_table table[SPH_PART
     sph_text text = {0};
     if (table[part].n == 0) continue;
     snprintf(name, sizeof name, "%s_%04ld.%s", parts[part], number, endings[e->format]);
-    (e->format == CSV ? sph_export_csv : sph_export_vtu)(&table[part], e->def->single, &text);
+    write_table[e->format](&table[part], e->def->single, &text);
     status = write_text(e, name, &text);
     add_entry(e, part, name, table[part].time);
   }

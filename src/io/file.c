@@ -8,6 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "memory.h"
+
 int sph_file_path(char path[SPH_PATH], const char *directory, const char *name, sph_error *error)
 {
   if (!directory || !*directory)
@@ -84,6 +86,25 @@ int sph_file_replace(const char *path, const void *data, size_t size, sph_error 
                          strerror(why));
   sync_directory(path);
   return SPH_OK;
+}
+
+int sph_file_read(const char *path, char **text, size_t *size, sph_error *error)
+{
+  struct stat info;
+  FILE *file = fopen(path, "rb");
+  if (!file) return sph_error_set(error, SPH_ERR_FILE, "cannot read %s: %s", path, strerror(errno));
+  int status = SPH_OK;
+  if (fstat(fileno(file), &info) != 0 || !S_ISREG(info.st_mode))
+    status = sph_error_set(error, SPH_ERR_FILE, "cannot read %s: it is no file", path);
+  if (!status) {
+    *size = (size_t)info.st_size;
+    *text = sph_memory_new(*size + 1, 1, path, error);
+    if (!*text) status = SPH_ERR_MEMORY;
+  }
+  if (!status && fread(*text, 1, *size, file) != *size)
+    status = sph_error_set(error, SPH_ERR_FILE, "cannot read %s: it became shorter", path);
+  fclose(file);
+  return status;
 }
 
 void sph_file_remove_stale(const char *directory, const char *prefix)

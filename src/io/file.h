@@ -13,6 +13,8 @@ int sph_file_path(char path[SPH_PATH], const char *directory, const char *name, 
 int sph_file_make_directory(const char *path, sph_error *error);
 /* Makes path hold these bytes, or leaves it as it was and records why. */
 int sph_file_replace(const char *path, const void *data, size_t size, sph_error *error);
+/* A whole file: *text[*size] with a NUL behind (sph_memory_free). */
+int sph_file_read(const char *path, char **text, size_t *size, sph_error *error);
 /* Removes directory/prefix*.tmp: what a killed run left. */
 void sph_file_remove_stale(const char *directory, const char *prefix);
 

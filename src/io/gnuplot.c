@@ -1,15 +1,12 @@
 #include "gnuplot.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "file.h"
-
-enum { NO_PROGRAM = '\177' }; /* said by the child: there is no gnuplot */
+#include "process.h"
 
 int sph_gnuplot_names(sph_gnuplot *names, const char *png, sph_error *error)
 {
@@ -52,42 +49,6 @@ void sph_gnuplot_begin(const sph_gnuplot *names, sph_text *script, int width, in
                        "set tics nomirror out scale 0.6 textcolor rgb '#333333'\n\n");
 }
 
-static void child(const sph_gnuplot *names, int out)
-{
-  const char none = NO_PROGRAM;
-  if (chdir(names->directory) != 0 || dup2(out, STDERR_FILENO) < 0) _exit(1);
-  dup2(out, STDOUT_FILENO);
-  execlp("gnuplot", "gnuplot", "-d", names->script, (char *)NULL); /* -d: not the user's settings */
-  if (errno == ENOENT && write(out, &none, 1) < 0) _exit(2);
-  _exit(1);
-}
-
-/* Runs it; said[size] gets the beginning of what it printed.  Exit status, or -1. */
-static int run(const sph_gnuplot *names, char *said, size_t size)
-{
-  int pipe_ends[2], status = -1;
-  size_t used = 0;
-  said[0] = '\0';
-  if (pipe(pipe_ends) != 0) return -1;
-  for (int k = 0; k < 2; k++) fcntl(pipe_ends[k], F_SETFD, FD_CLOEXEC);
-  pid_t pid = fork();
-  if (pid == 0) child(names, pipe_ends[1]);
-  close(pipe_ends[1]);
-  while (pid > 0) {
-    char rest[512];
-    size_t room = size - 1 - used;
-    ssize_t got = read(pipe_ends[0], room ? said + used : rest, room ? room : sizeof rest);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) break;
-    used += room ? (size_t)got : 0;
-  }
-  said[used] = '\0';
-  close(pipe_ends[0]);
-  while (pid > 0 && waitpid(pid, &status, 0) < 0)
-    if (errno != EINTR) return -1;
-  return pid > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 /* gnuplot does not tell that a disk was full: the end of a picture is there, or it is not one. */
 static int is_whole(const char *path)
 {
@@ -109,14 +70,16 @@ static int draw(const sph_gnuplot *names, sph_error *error)
   if (status != SPH_OK) return status;
   snprintf(old, sizeof old, "%s.old", path);
   const int kept = rename(path, old) == 0;
-  int code = run(names, said, sizeof said);
+  const char *const argv[] = {"gnuplot", "-d", names->script,
+                              NULL}; /* -d: not the user's settings */
+  int code = sph_process_run(names->directory, argv, said, sizeof said);
   const int whole = code == 0 && is_whole(path);
   if (!whole) unlink(path);
   if (kept && whole) unlink(old);
   if (kept && !whole && rename(old, path) != 0)
     return sph_error_set(error, SPH_ERR_FILE, "cannot rename %s: %s", old, strerror(errno));
   if (whole) return SPH_OK;
-  if (said[0] == NO_PROGRAM)
+  if (code == SPH_PROCESS_MISSING)
     return sph_error_set(error, SPH_ERR_UNBUILT,
                          "no gnuplot found: install gnuplot-nox (Debian, Ubuntu) or gnuplot "
                          "(Fedora, Homebrew), then run: gnuplot %s in %.300s",

@@ -35,6 +35,9 @@ static int ends(const char *path, const char *end)
   return a > b && !strcmp(path + a - b, end);
 }
 
+static int is_hdf5(const char *path) { return ends(path, ".hdf") || ends(path, ".hdf5"); }
+static int is_vtk(const char *path) { return ends(path, ".vtu") || ends(path, ".vtp"); }
+
 static const char *unit_of(const importer *m, const char *field)
 {
   const sph_field_info *info;
@@ -116,7 +119,7 @@ static int read_csv(importer *m, const sph_group *group)
   return status;
 }
 
-/* ---- HDF5 ---- */
+/* ---- HDF5, VTU ---- */
 
 static int copy(importer *m, const sph_table *table, int k)
 {
@@ -141,10 +144,13 @@ static int one_mass(importer *m, double mass)
   return SPH_OK;
 }
 
-static int read_hdf5(importer *m)
+static int read_table(importer *m)
 {
   sph_table table;
-  int status = sph_table_read(&table, m->def->path, m->def->part, NULL, &m->error);
+  const char *path = m->def->path;
+  int status = is_vtk(path)
+                   ? sph_table_vtu_read(&table, path, "velocity density mass energy", &m->error)
+                   : sph_table_read(&table, path, m->def->part, NULL, &m->error);
   if (status) return status;
   m->n = table.n;
   for (int k = 0; k < WANTED && !status && m->n > 0; k++) status = copy(m, &table, k);
@@ -167,8 +173,10 @@ static int check_values(importer *m)
                              wanted[k].column, i, value, positive ? "finite and > 0" : "finite");
     }
   if (m->n > 0) return SPH_OK;
-  return sph_error_set(&m->error, SPH_ERR_ARGUMENT, "%s: no particles of PartType%d", m->def->path,
-                       m->def->part);
+  return sph_error_set(&m->error, SPH_ERR_ARGUMENT,
+                       is_hdf5(m->def->path) ? "%s: no particles of PartType%d"
+                                             : "%s: no particles",
+                       m->def->path, m->def->part);
 }
 
 static int fill(importer *m, sph_group *group)
@@ -193,11 +201,11 @@ void sph_import(sph_sim *sim, sph_group *group, const sph_import_def *def)
     status = sph_error_set(&m.error, SPH_ERR_ARGUMENT, "import: of no file");
   else if (ends(def->path, ".csv"))
     status = read_csv(&m, group);
-  else if (ends(def->path, ".hdf") || ends(def->path, ".hdf5"))
-    status = read_hdf5(&m);
+  else if (is_hdf5(def->path) || is_vtk(def->path))
+    status = read_table(&m);
   else
-    status =
-        sph_error_set(&m.error, SPH_ERR_ARGUMENT, "%s: known are .csv, .hdf, .hdf5", def->path);
+    status = sph_error_set(&m.error, SPH_ERR_ARGUMENT,
+                           "%s: known are .csv, .hdf, .hdf5, .vtu, .vtp", def->path);
   if (!status) status = check_values(&m);
   if (status)
     sph_sim_fail(sim, status, "%s", m.error.text);

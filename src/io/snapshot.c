@@ -6,6 +6,7 @@
 #include "snapshot.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "h5.h"
@@ -173,11 +174,26 @@ typedef struct linking {
   hid_t data;
 } linking;
 
-static herr_t link_one(hid_t part, const char *name, const H5L_info_t *info, void *ctx)
+/* "Density [kg per m^3]": what tools show is the name alone, and a link's name has no "/". */
+static void vtk_name(hid_t part, const char *dataset, char name[256])
+{
+  char unit[64] = "";
+  hid_t set = H5Dopen2(part, dataset, H5P_DEFAULT);
+  if (set < 0 || sph_h5_read_string(set, "unit", unit, sizeof unit)) unit[0] = '\0';
+  if (set >= 0) H5Dclose(set);
+  int n = snprintf(name, 256, unit[0] ? "%.100s [" : "%.100s", dataset);
+  for (const char *c = unit; *c && n < 240; c++)
+    n += snprintf(name + n, 256 - (size_t)n, *c == '/' ? " per " : "%c", *c);
+  if (unit[0]) snprintf(name + n, 256 - (size_t)n, "]");
+}
+
+static herr_t link_one(hid_t part, const char *dataset, const H5L_info_t *info, void *ctx)
 {
   linking *l = ctx;
+  char name[256];
   (void)info;
-  if (strcmp(name, "Coordinates") != 0) sph_h5_link(&l->w->h5, part, name, l->data, name);
+  vtk_name(part, dataset, name);
+  if (strcmp(dataset, "Coordinates") != 0) sph_h5_link(&l->w->h5, part, dataset, l->data, name);
   return 0;
 }
 

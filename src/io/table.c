@@ -25,8 +25,7 @@ int sph_table_listed(const char *list, const char *name)
   return 0;
 }
 
-/* The library's name of a dataset. */
-static void name_of(const char *dataset, char name[SPH_TABLE_NAME])
+void sph_table_name(const char *dataset, char name[SPH_TABLE_NAME])
 {
   static const char *const more[][2] = {{"id", "ParticleIDs"},
                                         {"group", "Group"},
@@ -85,7 +84,7 @@ static herr_t visit(hid_t part, const char *dataset, const H5L_info_t *info, voi
   reader *r = ctx;
   char name[SPH_TABLE_NAME];
   (void)info;
-  name_of(dataset, name);
+  sph_table_name(dataset, name);
   if (r->wanted && strcmp(name, "position") != 0 && !sph_table_listed(r->wanted, name)) return 0;
   hid_t set = H5Dopen2(part, dataset, H5P_DEFAULT);
   if (set < 0) return 0; /* a group */
@@ -120,7 +119,7 @@ static int missing(const reader *r)
       char dataset[256] = "", name[SPH_TABLE_NAME];
       H5Lget_name_by_idx(r->part, ".", H5_INDEX_NAME, H5_ITER_INC, k, dataset, sizeof dataset,
                          H5P_DEFAULT);
-      name_of(dataset, name);
+      sph_table_name(dataset, name);
       sph_words_add(&words, name);
     }
     return sph_error_set(r->error, SPH_ERR_ARGUMENT, "%s: no field \"%s\"; %sit has: %s", r->path,

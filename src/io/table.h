@@ -27,6 +27,11 @@ typedef struct sph_table {
  * them, and what position needs; NULL: all. */
 int sph_table_read(sph_table *table, const char *path, int part, const char *wanted,
                    sph_error *error);
+/* The same of VTK's XML (.vtu, .vtp): their points and the wanted of the data at these.  Without
+ * Expat and zlib: SPH_ERR_UNBUILT, what to install. */
+int sph_table_vtu_read(sph_table *table, const char *path, const char *wanted, sph_error *error);
+/* The library's name of a dataset ("Velocities": "velocity"). */
+void sph_table_name(const char *dataset, char name[SPH_TABLE_NAME]);
 /* Is the name among the words of the list? */
 int sph_table_listed(const char *list, const char *name);
 /* NULL: there is none. */

@@ -55,7 +55,8 @@ static sph_sim *original(void)
   sph_sim_add_output(sim, sph_output_hdf5(folder, INFINITY));
   sph_error error = {0};
   const sph_export_def csv = {.path = folder, .format = "csv", .directory = folder};
-  if (sph_sim_run(sim, 0.05) || sph_export(&csv, &error) < 0)
+  const sph_export_def vtu = {.path = folder, .format = "vtu", .directory = folder};
+  if (sph_sim_run(sim, 0.05) || sph_export(&csv, &error) < 0 || sph_export(&vtu, &error) < 0)
     fail_msg("%s%s", sph_sim_error(sim), error.text);
   assert_int_equal(sph_sim_evaluate(sim), SPH_OK);
   return sim;
@@ -95,6 +96,28 @@ static void the_state_comes_back(void **state)
     same(right, sim, 1e-14);
     sph_sim_free(sim);
   }
+  sph_sim_free(right);
+}
+
+/* What `sphode export --vtu` writes comes in with the same bits. */
+static void vtu_keeps_the_bits(void **state)
+{
+  (void)state;
+  static const char *const fields[] = {"position", "velocity", "density", "energy", "mass"};
+  sph_group *gas, *wall;
+  sph_sim *right = original(), *sim = empty(&gas, &wall);
+  sph_import(sim, gas, &(sph_import_def){.path = in("snapshot_0001.vtu"), .rho0 = 1});
+  sph_import(sim, wall, &(sph_import_def){.path = in("walls_0001.vtu"), .rho0 = 1});
+  const int built = sph_sim_status(sim) != SPH_ERR_UNBUILT;
+  if (built && sph_sim_status(sim)) fail_msg("%s", sph_sim_error(sim));
+  for (int k = 0; k < 5 && built; k++)
+    for (int d = 0; d < (k < 2 ? 2 : 1); d++)
+      assert_memory_equal(sph_group_read(gas, fields[k], d),
+                          sph_group_read(sph_sim_group(right, "gas"), fields[k], d),
+                          (size_t)sph_group_count(gas) * sizeof(double));
+  assert_int_equal(sph_group_count(wall),
+                   built ? sph_group_count(sph_sim_group(right, "wall")) : 0);
+  sph_sim_free(sim);
   sph_sim_free(right);
 }
 
@@ -142,7 +165,7 @@ static void refused(void **state)
   (void)state;
   refuse("nothing.csv", NULL, "cannot read");
   refuse("nothing.hdf", NULL, "no such HDF5 file");
-  refuse("a.vtu", "<VTKFile>", "known are .csv, .hdf, .hdf5");
+  refuse("a.txt", "1 2", "known are .csv, .hdf, .hdf5, .vtu, .vtp");
   refuse("a.hdf5", "not HDF5", "no such HDF5 file");
   refuse("a.csv", "x,z\n1,2\n", "no column \"y\"");
   refuse("a.csv", "x,y\n", "no particles");
@@ -174,6 +197,7 @@ static int clean(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_state_comes_back),
+                                     cmocka_unit_test(vtu_keeps_the_bits),
                                      cmocka_unit_test(table_by_hand), cmocka_unit_test(refused)};
   return cmocka_run_group_tests_name("import", tests, make, clean);
 }

@@ -191,8 +191,8 @@ static void paraview_sees_the_same_data(void **state)
   (void)state;
   static const char *const same[][2] = {
       {"/PartType0/Coordinates", "/VTKHDF/Points"},
-      {"/PartType0/Velocities", "/VTKHDF/PointData/Velocities"},
-      {"/PartType0/Pressure", "/VTKHDF/PointData/Pressure"},
+      {"/PartType0/Velocities", "/VTKHDF/PointData/Velocities [m per s]"},
+      {"/PartType0/Pressure", "/VTKHDF/PointData/Pressure [Pa]"},
       {"/PartType1/Coordinates", "/Walls/Points"},
   };
   sph_error error = {0};
