@@ -183,8 +183,7 @@ SPH_API sph_term sph_term_pressure_form(const char *form);
  *
  * Matched: pressure "mean" with continuity "one-sided", "none" with "none", pressure "one-sided"
  * with any.  Not with an implicit viscosity-laminar, nor where derivatives of f are asked for
- * (sphode/jacobian.h, sensitivity.h, adjoint.h), nor with pair terms that have a scalar; "mean" of
- * pressure and viscosity not at mirrors, whose images have no matrices. */
+ * (sphode/jacobian.h, sensitivity.h, adjoint.h), nor with pair terms that have a scalar. */
 SPH_API sph_term sph_term_corrected(sph_term term, const char *correction);
 /* Monaghan (1992) artificial viscosity with heating; alpha, beta >= 0. */
 SPH_API sph_term sph_term_viscosity_artificial(double alpha, double beta);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "gradient_loops.h"
+#include "sim_mirror.h"
 #include "sim_rhs.h"
 
 enum { SOLVED = 256 }; /* at once */
@@ -161,5 +162,6 @@ int sph_sim_gradients(sph_evaluation *e)
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > 2048)
     for (long s = 0; s < n; s++) invert(sim, &sim->sorted[g], s);
   }
+  if (e->part->terms & SPH_CORRECTED) sph_sim_mirror_matrices(sim);
   return SPH_OK;
 }

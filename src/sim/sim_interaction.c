@@ -92,6 +92,8 @@ fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part
                        .epsilon = set->epsilon,
                        .stress_tension = set->stress_alpha,
                        .stress_pressure = set->stress_beta};
+  k.other = source->wall && source->model != SPH_MODEL_MIRROR ? 0 : 0.5;
+  k.own = 1 - k.other;
   material(sim, target, source, &k);
   repulsion(sim, target, source, &k);
   if (k.laminar == 0) k.terms &= ~(unsigned)(SPH_MORRIS | SPH_MCG);

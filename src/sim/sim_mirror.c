@@ -138,16 +138,6 @@ int sph_sim_mirror_one_liquid(sph_sim *sim)
   return status;
 }
 
-/* Ghosts have no gradient matrices: those of the mean form would be reflected ones. */
-static int uncorrected(sph_sim *sim, const sph_group *group)
-{
-  if (!(sim->terms.bits & (SPH_PRESSURE_MEAN | SPH_LAMINAR_MEAN))) return SPH_OK;
-  return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
-                      "mirror %s: its images have no gradient matrices, which correction \"mean\" "
-                      "takes from both ends; right is \"one-sided\", \"none\", or an adami wall",
-                      group->name);
-}
-
 static int check(sph_sim *sim, int g)
 {
   sph_group *group = sim->group[g];
@@ -156,7 +146,6 @@ static int check(sph_sim *sim, int g)
                                   "mirror %s has particles; right are planes alone", group->name)
                : sim->terms.bits & SPH_DIFFUSION ? one_liquid(sim, group)
                                                  : SPH_OK;
-  if (!status) status = uncorrected(sim, group);
   for (int k = 0; !status && k < group->boundary.planes; k++) {
     const sph_plane *plane = &group->boundary.plane[k];
     for (int d = 0; d < 3; d++)
@@ -390,6 +379,61 @@ void sph_sim_mirror_turn(const sph_sim *sim, const sph_ghost *ghost, double *a)
     reflect(sim->group[ghost->in[k].group]->boundary.plane[ghost->in[k].plane].normal, zero,
             turned);
   for (int d = 0; d < sim->dim; d++) a[d] = turned[d];
+}
+
+/* The record of a ghost's particle. */
+static const double *parent_record(const sph_sim *sim, const sph_ghost *ghost)
+{
+  const sph_sorted *sorted = &sim->sorted[ghost->group];
+  return sorted->record + sph_sim_mirror_parent(sim, ghost) * sorted->stride;
+}
+
+void sph_sim_mirror_copy(const sph_sim *sim, int from, int to)
+{
+  for (int g = 0; g < sim->groups; g++) {
+    const sph_group *group = sim->group[g];
+    const int *order = sph_neighbors_order(sim->neighbors, g);
+    if (!is_mirror(group)) continue;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (group->n > PARALLEL_MIN)
+    for (long s = 0; s < group->n; s++) {
+      const double *parent = parent_record(sim, &group->ghost[order[s]]);
+      double *own = sim->sorted[g].record + s * sim->sorted[g].stride;
+      for (int k = from; k < to; k++) own[k] = parent[k];
+    }
+  }
+}
+
+/* Both indices are turned, one after the other. */
+static void turn_matrix(const sph_sim *sim, const sph_ghost *ghost, const double *B, double *to)
+{
+  double A[3][3], column[3];
+  const int dim = sim->dim;
+  for (int a = 0; a < dim; a++)
+    for (int b = a; b < dim; b++) A[a][b] = A[b][a] = *B++;
+  for (int a = 0; a < dim; a++) sph_sim_mirror_turn(sim, ghost, A[a]);
+  for (int b = 0; b < dim; b++) {
+    for (int a = 0; a < dim; a++) column[a] = A[a][b];
+    sph_sim_mirror_turn(sim, ghost, column);
+    for (int a = 0; a < dim; a++) A[a][b] = column[a];
+  }
+  for (int a = 0; a < dim; a++)
+    for (int b = a; b < dim; b++) *to++ = A[a][b];
+}
+
+void sph_sim_mirror_matrices(const sph_sim *sim)
+{
+  const int slot = slot_B(sim->dim);
+  for (int g = 0; g < sim->groups; g++) {
+    const sph_group *group = sim->group[g];
+    const int *order = sph_neighbors_order(sim->neighbors, g);
+    if (!is_mirror(group)) continue;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (group->n > PARALLEL_MIN)
+    for (long s = 0; s < group->n; s++) {
+      const sph_ghost *ghost = &group->ghost[order[s]];
+      turn_matrix(sim, ghost, parent_record(sim, ghost) + slot,
+                  sim->sorted[g].record + s * sim->sorted[g].stride + slot);
+    }
+  }
 }
 
 static void place(const sph_evaluation *e, const mirrors *all, const sph_group *group, long i)

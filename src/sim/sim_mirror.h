@@ -19,6 +19,10 @@ int sph_sim_mirror_slips(const sph_group *group);
 long sph_sim_mirror_parent(const sph_sim *sim, const sph_ghost *ghost);
 /* a, a direction of the particle, as its ghost has it. */
 void sph_sim_mirror_turn(const sph_sim *sim, const sph_ghost *ghost, double *a);
+/* Slots from .. to - 1 of the records of all ghosts: as those of their particles. */
+void sph_sim_mirror_copy(const sph_sim *sim, int from, int to);
+/* B, the inverse gradient matrices of their particles, as ghosts have it: R B R. */
+void sph_sim_mirror_matrices(const sph_sim *sim);
 /* Has a mirror moved so far since the build that fluid without an image may be near it? */
 int sph_sim_mirror_moved(const sph_sim *sim, double t);
 /* Where the mirrors stand: part of what lists depend on. */

@@ -5,7 +5,7 @@
  *
  * Only fluid particles are seen, and images of them behind mirrors along which they slip: corrected
  * gradients are exact for linear fields at walls and surfaces too, and a wall along which a fluid
- * slips is no shear. */
+ * slips is no shear.  Images of all mirrors have the factor and alpha of their particles. */
 #include <math.h>
 #include <string.h>
 
@@ -133,6 +133,7 @@ int sph_sim_switches(sph_evaluation *e)
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
     for (long s = 0; s < n; s++) set(e, g, s, order[s]);
   }
+  if (e->part->switches) sph_sim_mirror_copy(sim, slot_alpha(sim->dim), slot_f(sim->dim) + 1);
   return SPH_OK;
 }
 

@@ -66,7 +66,8 @@ BODY unsigned fluid_corrections(unsigned terms)
  *   p: the pressure (C2), p/rho^2 (S) or phi p/rho^2;
  *   extra: <grad rho>^L of a fluid, the velocity that viscous terms see of a wall;
  *   alpha: of artificial viscosity, over that of the term;  f: Balsara's factor;
- *   B: the inverse gradient matrix of a fluid, its upper triangle by rows. */
+ *   B: the inverse gradient matrix of a fluid, its upper triangle by rows.
+ * Images behind mirrors have alpha, f and B of their particles, other walls none. */
 BODY int slot_v(int dim) { return dim; }
 BODY int slot_rho(int dim) { return 2 * dim; }
 BODY int slot_p(int dim) { return 2 * dim + 1; }
@@ -127,6 +128,7 @@ typedef struct fluid_constants {
   vec_scalar stress_tension, stress_pressure; /* artificial stress: alpha, beta, */
   vec_scalar inverse_w_dx;                    /* 1/w(dx/h) */
   vec_scalar repulsion, range;                /* of a wall: term_repulsion.h */
+  vec_scalar own, other; /* shares of i and j in means of switches: 1, 0 at walls of particles */
 } fluid_constants;
 enum { SPH_FLUID_NUMBERS = (sizeof(fluid_constants) - sizeof(double)) / sizeof(vec_scalar) };
 

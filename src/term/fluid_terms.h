@@ -70,7 +70,8 @@ BODY void fluid_pair(int dim, int kernel, unsigned terms, const fluid_constants 
   pair p = fluid_pair_common(dim, kernel, terms, k, &i, &j);
   if (terms & SPH_CORRECTED) {
     const vec *B_i = slot_i + slot_B(dim);
-    const vec *B_j = terms & SPH_WALL ? B_i : slot_j + slot_B(dim); /* a wall mirrors that of i */
+    /* a wall of particles mirrors that of i */
+    const vec *B_j = (terms & SPH_WALL) && k->other == 0 ? B_i : slot_j + slot_B(dim);
     fluid_terms_corrected(dim, terms, &p, &i, &j, B_i, B_j, sum);
   }
   fluid_terms(dim, kernel, terms, &p, k, &i, &j, sum);

@@ -13,7 +13,7 @@
  *   one-sided  a_i = - 1/rho_i sum_j V_j (p_j - p_i) B_i grad_i W_ij, of no row; exact for a linear
  *              pressure, also at surfaces; conserves nothing
  *
- * A wall has the B of i. */
+ * A wall of particles has the B of i, an image behind a mirror that of its particle, reflected. */
 #ifndef SPH_TERM_PRESSURE_H
 #define SPH_TERM_PRESSURE_H
 #include "fluid_pair.h"

@@ -3,8 +3,9 @@
  *
  *   Pi_ij -> (f_i + f_j)/2 (alpha_i + alpha_j)/(2 alpha) Pi_ij,   alpha: that of the term,
  *
- * beta with it; at a wall, which has neither, f_i alpha_i/alpha of the fluid particle.  Symmetric
- * and >= 0: momentum is conserved and heating is >= 0 as before.
+ * beta with it; at a wall of particles, which has neither, f_i alpha_i/alpha of the fluid particle;
+ * images behind mirrors have those of theirs.  Symmetric and >= 0: momentum is conserved and
+ * heating is >= 0 as before.
  *
  * Balsara (1995):  f = |div v|/(|div v| + |curl v| + 1e-4 c/h)
  * Morris & Monaghan (1997), source of Rosswog et al. (2000):
@@ -28,11 +29,10 @@ static const double SPH_SWITCH_FALL = 10;   /* Cullen & Dehnen: tau v_sig/h, 1/(
 static const double SPH_SWITCH_RISE = 0.1;  /* and where alpha rises */
 
 /* The part of Pi_ij that acts. */
-BODY vec term_switch(unsigned terms, const particle *i, const particle *j)
+BODY vec term_switch(unsigned terms, const fluid_constants *k, const particle *i, const particle *j)
 {
   if (!(terms & SPH_SWITCHES)) return v_set(1);
-  if (terms & SPH_WALL) return i->f * i->alpha;
-  return 0.25 * (i->f + j->f) * (i->alpha + j->alpha);
+  return (k->own * i->f + k->other * j->f) * (k->own * i->alpha + k->other * j->alpha);
 }
 
 #endif

@@ -16,7 +16,7 @@ BODY void term_viscosity_artificial(unsigned terms, pair *p, const fluid_constan
   vec w = v_min0(p->rv_viscous), e = p->r2 + k->eta2;
   vec above = k->viscosity_1 * (i->c + j->c), below = e * (i->rho + j->rho);
   if (terms & SPH_QUADRATIC) above = above * e + k->viscosity_2 * w, below *= e;
-  p->along_r -= term_switch(terms, i, j) * (j->rho * w) * above / below;
+  p->along_r -= term_switch(terms, k, i, j) * (j->rho * w) * above / below;
 }
 
 #endif

@@ -15,7 +15,7 @@ BODY void term_viscosity_signal(unsigned terms, pair *p, const fluid_constants *
 {
   vec w = v_min0(p->rv_viscous) / fluid_apart(p->distance);
   vec v_sig = i->c + j->c - k->signal_2 * w;
-  p->along_r -= term_switch(terms, i, j) * j->rho * k->signal_1 * v_sig * w / (i->rho + j->rho);
+  p->along_r -= term_switch(terms, k, i, j) * j->rho * k->signal_1 * v_sig * w / (i->rho + j->rho);
 }
 
 #endif

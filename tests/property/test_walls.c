@@ -160,7 +160,8 @@ static void planes_edges_corners(void **state)
   box_of_mirrors(3, 7, "c2");
 }
 
-/* A liquid or gas of the first n particles of c that shifts, or whose viscosity is switched. */
+/* A liquid of the first n particles of c that shifts, whose viscosity is switched, or, where that of
+ * the term is, with corrected gradients. */
 static sph_sim *drifting(const cloud *c, long n, const sph_sim_def *def, sph_term term)
 {
   sph_sim *sim = sph_sim_create(def);
@@ -170,14 +171,18 @@ static sph_sim *drifting(const cloud *c, long n, const sph_sim_def *def, sph_ter
   for (int k = 0; k < c->dim; k++)
     memcpy(sph_group_write(group, "velocity", k), c->v[k], (size_t)n * sizeof(double));
   memcpy(sph_group_write(group, "density", 0), c->rho, (size_t)n * sizeof(double));
-  sph_sim_add_term(sim, sph_term_continuity());
-  sph_sim_add_term(sim, sph_term_pressure());
+  const int mean = term.correction != NULL;
+  sph_group_set_viscosity(group, 0.3);
+  sph_sim_add_term(sim, sph_term_corrected(sph_term_continuity(), mean ? "one-sided" : NULL));
+  sph_sim_add_term(sim, sph_term_corrected(sph_term_pressure(), term.correction));
   sph_sim_add_term(sim, term);
+  double *alpha = term.switches ? sph_group_write(group, "alpha", 0) : NULL; /* NULL: balsara */
+  for (long i = 0; alpha && i < n; i++) alpha[i] = 0.3 * c->u[i];
   return sim;
 }
 
 /* Shifting, its free surface (liquid in the middle), the transport velocity and switches take
- * images into their gradients. */
+ * images into their gradients; means of both ends take factors, alpha and matrices of images. */
 static void drifts(int dim, int across, int surface, const char *last, sph_term term)
 {
   static cloud c;
@@ -216,13 +221,25 @@ static void shifting_and_switches(void **state)
            sph_term_switched(sph_term_viscosity_artificial(1, 2), "morris-monaghan", 0.1));
     drifts(dim, across, 0, "alpha",
            sph_term_switched(sph_term_viscosity_artificial(1, 2), "cullen-dehnen", 0));
+    drifts(dim, across, 0, NULL,
+           sph_term_switched(sph_term_viscosity_artificial(1, 2), "balsara", 0));
+    drifts(dim, across, 0, "alpha",
+           sph_term_switched(sph_term_viscosity_signal(1, 3), "balsara morris-monaghan", 0.1));
+    drifts(dim, across, 0, NULL, sph_term_corrected(sph_term_viscosity_laminar("morris"), "mean"));
+    drifts(dim, across, 0, NULL, sph_term_corrected(sph_term_viscosity_laminar("mcg"), "mean"));
   }
 }
 
-/* A plane and one at right angles to it, of another group, both tilted and moving. */
-static void tilted(void **state)
+static sph_sim *corrected(const cloud *c, long n, const sph_sim_def *def, const char *form)
 {
-  (void)state;
+  (void)form;
+  return drifting(c, n, def, sph_term_corrected(sph_term_viscosity_laminar("morris"), "mean"));
+}
+
+/* A plane and one at right angles to it, of another group, both tilted and moving. */
+static void tilt(sph_sim *make(const cloud *, long, const sph_sim_def *, const char *),
+                 const char *last)
+{
   static cloud c;
   const double a = 0.3, one[3] = {cos(a), sin(a)}, two[3] = {-sin(a), cos(a)};
   const double at[3] = {-0.3, -0.4}, v_b[3] = {0.3, -0.2};
@@ -235,7 +252,7 @@ static void tilted(void **state)
   for (long i = 0, end = c.n; i < end; i++) add_image(&c, i, at, one, v_b);
   for (long i = 0, end = c.n; i < end; i++) add_image(&c, i, at, two, v_b);
   const sph_sim_def def = {.dim = 2, .dx = 1.0 / 14};
-  sph_sim *mirrored = gas(&c, n, &def, "c2"), *whole = gas(&c, c.n, &def, "c2");
+  sph_sim *mirrored = make(&c, n, &def, "c2"), *whole = make(&c, c.n, &def, "c2");
   const double *normal[] = {one, two};
   for (int k = 0; k < 2; k++) {
     sph_group *wall = sph_group_create(mirrored, k ? "two" : "one", "wall");
@@ -253,8 +270,15 @@ static void tilted(void **state)
   for (long i = n; i < c.n; i++)
     for (int k = 0; k < 2; k++)
       sph_group_write(sph_sim_group(whole, "gas"), "velocity", k)[i] -= v_b[k];
-  same_rates(mirrored, whole, n, 2, "energy");
+  same_rates(mirrored, whole, n, 2, last);
   sph_sim_free(mirrored), sph_sim_free(whole);
+}
+
+static void tilted(void **state)
+{
+  (void)state;
+  tilt(gas, "energy");
+  tilt(corrected, NULL);
 }
 
 /* A piston: its plane at x = 0.3 t. */
