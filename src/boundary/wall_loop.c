@@ -9,7 +9,7 @@ static const sph_wall_table *const tables[SPH_ISA_COUNT] = {
 #undef ROW
 };
 
-sph_pair_function *sph_wall_loop(int isa, int kernel, int dim, int thermal)
+sph_pair_function *sph_wall_loop(int isa, int kernel, int dim, int turns, int thermal)
 {
-  return tables[isa]->loop[kernel][dim - 1][thermal];
+  return tables[isa]->loop[kernel][dim - 1][turns][thermal];
 }

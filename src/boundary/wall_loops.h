@@ -5,9 +5,9 @@
 #include "wall_pair.h"
 
 typedef struct sph_wall_table {
-  sph_pair_function *loop[SPH_KERNELS][3][2]; /* [kernel][dim - 1][thermal] */
+  sph_pair_function *loop[SPH_KERNELS][3][2][2]; /* [kernel][dim - 1][turns][thermal] */
 } sph_wall_table;
 
-sph_pair_function *sph_wall_loop(int isa, int kernel, int dim, int thermal);
+sph_pair_function *sph_wall_loop(int isa, int kernel, int dim, int turns, int thermal);
 
 #endif

@@ -53,7 +53,7 @@ static double position(const packing *k, int d, long i)
   return k->view.x[d][i] - (k->wrap[d] ? k->wrap[d][i] * k->length[d] : 0);
 }
 
-/* The velocity that viscous terms see of a wall particle: 2 v - <v_fluid>. */
+/* The velocity that viscous terms see of a wall particle: 2 v - <v_fluid> (wall_pair.h). */
 static double slip_velocity(const packing *k, int d, long s, long i)
 {
   double W = k->wall_sum[SPH_WALL_W][s], v = k->view.v[d][i];

@@ -63,6 +63,8 @@ typedef struct sph_wall_motion {
 } sph_wall_motion;
 int sph_sim_walls_moves(const sph_boundary *boundary);
 sph_wall_motion sph_sim_walls_motion(const sph_boundary *boundary, double t);
+/* Of the loop wall <- fluid of an adami wall. */
+fluid_constants sph_sim_walls_constants(const sph_sim *sim, const sph_group *wall, double t);
 /* Place and velocity of what is at `start` where nothing has moved. */
 void sph_sim_walls_at(const sph_wall_motion *motion, int dim, const double *start, double *x,
                       double *v);

@@ -13,6 +13,8 @@ fluid_constants sph_sim_tangent_loop_constants(const sph_tangent *tangent, int p
 {
   const sph_sim *sim = tangent->sim;
   if (pass == SPH_TANGENT_drag) return sph_sim_drag_constants(sim, target, source);
+  if (pass == SPH_TANGENT_wall)
+    return sph_sim_walls_constants(sim, sim->group[target], tangent->e.t);
   if (pass != SPH_TANGENT_fluid) return sim->constants;
   return sph_sim_interaction_constants(sim, tangent->e.part, sim->group[target],
                                        sim->group[source]);

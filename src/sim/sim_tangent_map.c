@@ -120,10 +120,15 @@ void sph_sim_tangent_map_wall(const sph_local *k, const double *in, double *out)
   }
   if (p != 0 || wall->boundary.tension) { /* else it was cut */
     dp = in[SPH_WALL_P] / W - p * dW;
-    double x[3] = {0}, g_minus_a[3];
-    for (int d = 0; d < sim->dim; d++) x[d] = view->x[d][k->i];
-    sph_sim_walls_force(&k->tangent->motion[wall->index], sim->dim, sim->terms.g, x, g_minus_a);
-    for (int d = 0; d < sim->dim; d++) dp += g_minus_a[d] * in[SPH_WALL_RHO_R + d] / W;
+    const sph_wall_motion *motion = &k->tangent->motion[wall->index];
+    double x[3] = {0}, beside[3] = {0}, g_minus_a[3], moved[3]; /* linear in x */
+    for (int d = 0; d < sim->dim; d++) x[d] = view->x[d][k->i], beside[d] = x[d] + to->x[d];
+    sph_sim_walls_force(motion, sim->dim, sim->terms.g, x, g_minus_a);
+    sph_sim_walls_force(motion, sim->dim, sim->terms.g, beside, moved);
+    for (int d = 0; d < sim->dim; d++)
+      dp += (g_minus_a[d] * in[SPH_WALL_RHO_R + d] +
+             (moved[d] - g_minus_a[d]) * sum[SPH_WALL_RHO_R + d][k->s]) /
+            W;
   }
   double p_rho, p_u, c_rho, c_u, drho = 0;
   sph_eos_slopes(eos, 1, &rho, &u, &p_rho, &p_u, &c_rho, &c_u);

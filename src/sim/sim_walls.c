@@ -3,7 +3,8 @@
  * Adami, Hu & Adams (2012), from the fluid:
  *   p_w = [sum p_f W + (g - a_w) . sum rho_f r_wf W]/sum W,
  *   rho_w from p_w by the inverse equation of state,  m_w = rho_w dx^d,
- *   v_w = 2 v_prescribed - sum v_f W/sum W in viscous terms (no slip),
+ *   v_w = 2 v_prescribed - sum v_f W/sum W in viscous terms (no slip; where the wall turns, in its
+ *   frame: v_f + omega x r_wf for v_f, wall_pair.h),
  *   T_w = 2 T_prescribed - sum T_f W/sum W in conduction (isothermal).   No fluid near: p_w = 0.
  *
  * Dynamic boundary particles (Crespo, Gomez-Gesteira & Dalrymple 2007): rho_w is integrated, m_w
@@ -221,12 +222,33 @@ void sph_sim_walls_rates(sph_evaluation *e, int g)
   }
 }
 
+fluid_constants sph_sim_walls_constants(const sph_sim *sim, const sph_group *wall, double t)
+{
+  const sph_wall_motion m = sph_sim_walls_motion(&wall->boundary, t);
+  fluid_constants k = sim->constants;
+  for (int d = 0; d < 3; d++) k.omega[d] = m.turn[1] * m.axis[d];
+  return k;
+}
+
+/* The sums of an adami wall over all fluids. */
+static void extrapolate(sph_evaluation *e, int g)
+{
+  sph_sim *sim = e->sim;
+  const sph_group *wall = sim->group[g];
+  const fluid_constants k = sph_sim_walls_constants(sim, wall, e->t);
+  sph_pair_function *loop =
+      sph_wall_loop(sim->isa, sim->kernel_number, sim->dim, wall->boundary.rotation != NULL,
+                    sim->loop_terms & SPH_THERMAL ? 1 : 0);
+  sph_sim_pairs_pack_positions(e, g);
+  sph_sim_pairs_clear(sim, g, SPH_WALL_SUMS);
+  for (int f = 0; f < sim->groups; f++)
+    if (!sim->group[f]->wall && !sim->group[f]->eos.dust) sph_sim_pairs_loop(sim, loop, g, f, &k);
+}
+
 int sph_sim_walls_fill(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
   if (!e->part->pairs) return SPH_OK;
-  sph_pair_function *loop =
-      sph_wall_loop(sim->isa, sim->kernel_number, sim->dim, sim->loop_terms & SPH_THERMAL ? 1 : 0);
   sph_sim_material_phi(e, 0);
   sph_sim_pairs_pack(e, 0);
   int status = e->part->walls ? sph_sim_walls_heat(e) : SPH_OK;
@@ -235,11 +257,7 @@ int sph_sim_walls_fill(sph_evaluation *e)
     if (sim->group[g]->model == SPH_MODEL_MIRROR) status = sph_sim_mirror_fill(e, g);
     if (sim->group[g]->model == SPH_MODEL_DBC) dynamic(e, g);
     if (sim->group[g]->model != SPH_MODEL_ADAMI) continue;
-    sph_sim_pairs_pack_positions(e, g);
-    sph_sim_pairs_clear(sim, g, SPH_WALL_SUMS);
-    for (int f = 0; f < sim->groups; f++)
-      if (!sim->group[f]->wall && !sim->group[f]->eos.dust)
-        sph_sim_pairs_loop(sim, loop, g, f, &sim->constants);
+    extrapolate(e, g);
     sph_sim_walls_finish(e, g);
   }
   if (status || !e->part->walls) return status;

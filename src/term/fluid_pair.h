@@ -128,6 +128,7 @@ typedef struct fluid_constants {
   vec_scalar stress_tension, stress_pressure; /* artificial stress: alpha, beta, */
   vec_scalar inverse_w_dx;                    /* 1/w(dx/h) */
   vec_scalar repulsion, range;                /* of a wall: term_repulsion.h */
+  vec_scalar omega[3];                        /* of a wall that turns, for wall_pair.h [1/s] */
   vec_scalar own, other; /* shares of i and j in means of switches: 1, 0 at walls of particles */
 } fluid_constants;
 enum { SPH_FLUID_NUMBERS = (sizeof(fluid_constants) - sizeof(double)) / sizeof(vec_scalar) };

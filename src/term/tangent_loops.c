@@ -36,7 +36,7 @@ BODY void body_fluid(int dim, const void *c, const vec *i, const vec *j, vec *su
 BODY void body_wall(int dim, const void *c, const vec *i, const vec *j, vec *sum)
 {
   const constants *k = c;
-  wall_pair(dim, k->kernel, (k->fluid.terms & SPH_THERMAL) != 0, &k->fluid, i, j, sum);
+  wall_pair(dim, k->kernel, (k->fluid.terms & SPH_THERMAL) != 0, 1, &k->fluid, i, j, sum);
 }
 
 BODY void body_gradient(int dim, const void *c, const vec *i, const vec *j, vec *sum)

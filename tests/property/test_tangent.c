@@ -324,6 +324,13 @@ static void own_motion(void *ctx, double t, double displacement[3], double veloc
   }
 }
 
+/* ... and turns. */
+static void own_turn(void *ctx, double t, double turn[3])
+{
+  const double k = *(const double *)ctx;
+  turn[0] = 0.01 * k * sin(t + 1), turn[1] = 2 * k * k * cos(t + 1), turn[2] = -3 * k * sin(t + 1);
+}
+
 /* Tait's, without its slopes. */
 static sph_eos own_eos(void)
 {
@@ -352,6 +359,7 @@ static void callbacks(void **state)
       sph_group_set_eos(sph_sim_group(sim, "water"), own_eos());
       sph_boundary boundary = sph_boundary_adami_no_slip();
       boundary.motion = own_motion, boundary.ctx = &k, boundary.tension = 1;
+      if (dim > 1) boundary.rotation = own_turn;
       if (walls) sph_group_set_boundary(sph_sim_group(sim, "floor"), boundary);
       if (walls == 1)
         sph_sim_add_term(
