@@ -95,6 +95,20 @@ static int after_step(void *ctx, sph_sim *sim)
   return more >= STEPS;
 }
 
+/* Which limits the steps met: sound (cfl), viscosity, forces, errors, ... */
+static void print_bounds(const sph_step_stats *s)
+{
+  const char *between = "";
+  printf("%-12s ", "bound by");
+  for (int k = 0; k < SPH_BOUND_COUNT; k++) {
+    if (!s->bound_by[k]) continue;
+    printf("%s%s %.0f %%", between, sph_bound_name(k),
+           100. * (double)s->bound_by[k] / (double)s->steps);
+    between = ", ";
+  }
+  putchar('\n');
+}
+
 /* A few steps tell the step size and the speed of this machine; nothing is written. */
 static int estimate(sph_sim *sim, double end)
 {
@@ -105,6 +119,7 @@ static int estimate(sph_sim *sim, double end)
   double steps = ceil(end / t.last.step.dt_largest);
   printf("%-12s about %.3g steps of %.3g s to t = %.4g s (%s)\n", "steps", steps,
          t.last.step.dt_largest, end, sph_sim_integrator(sim));
+  print_bounds(&t.last.step);
   printf("%-12s about %.2g s on this machine with %d thread%s, %.3g MB\n", "time", steps * t.one,
          sph_sim_threads(sim), sph_sim_threads(sim) == 1 ? "" : "s", 1e-6 * t.last.bytes);
   return SPH_OK;

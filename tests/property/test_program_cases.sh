@@ -120,6 +120,8 @@ run 0 "$sphode" check tank2.yml --set "$event" --set 'groups.tank.boundary={moti
   grep -q "^event        fill: the front of all fluids passes x = 1.2 m, once: snapshot$" out &&
   grep -q "^event        turn: t = 0.5 s: gravity (0, -9.81) -> (0, -1), delta 0.1 -> 0.2, velocity of tank -> (1, 0), stop$" out
 ok $? "what events wait for, do and change"
+run 0 "$sphode" check tank2.yml --set integrator.method=leapfrog && grep -q "^bound by  *cfl [0-9]* %" out
+ok $? "and what bounds the steps"
 if command -v gnuplot >/dev/null; then
   run 0 "$sphode" check tank2.yml --picture a.png && [[ $(head -c 4 a.png | tail -c 3) == PNG ]] && grep -q "groups\|water" a.gp &&
     [[ $(grep -c '^$' a.dat) == 4 ]]
