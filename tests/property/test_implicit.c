@@ -197,7 +197,7 @@ static sph_sim *pool(int fields, const char *laminar)
 {
   sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 0.1});
   for (int g = 0; g <= fields; g++) {
-    char name[8];
+    char name[16];
     snprintf(name, sizeof name, "g%d", g);
     sph_group *group = sph_group_box(sim, name, (double[]){3.0 * g, 0},
                                      (double[]){3.0 * g + (g ? 2 : 1), g ? 3 : 1}, 1000);

@@ -148,7 +148,7 @@ MEASURE(grad_div, sph_operator_grad_div(w->op, u_of(w), w->out, NULL), w->c.dim,
 static double mcg(field *w)
 {
   if (sph_operator_mcg(w->op, u_of(w), w->out, NULL)) return NAN;
-  double *right[3];
+  double *right[3] = {NULL, NULL, NULL};
   for (int a = 0; a < w->c.dim; a++) {
     right[a] = cloud_array(w->c.n);
     for (long i = 0; i < w->c.n; i++) right[a][i] = w->lap[a][i] + 2 * w->grad_div[a][i];
