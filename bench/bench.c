@@ -125,6 +125,7 @@ int main(int argc, char **argv)
   bench_tiles();
   bench_reach();
   bench_dam();
+  bench_output();
   bench_stability();
   bench_linear();
   bench_imex();

@@ -23,6 +23,7 @@ void bench_baseline(void);    /* the same over a good plain code; growth with si
 void bench_dam(void);         /* SPHERIC's test 2, a developed flow; with --filter only */
 void bench_reach(void);       /* physical time per evaluation; with --filter only */
 void bench_operators(void);   /* operators on points */
+void bench_output(void);      /* frames of output beside steps; with --filter only */
 void bench_tiles(void);       /* registered pair terms against fused ones */
 void bench_stability(void);   /* stability limits of the integrators; with --filter only */
 void bench_imex(void);        /* implicit-explicit integrators; with --filter only */
