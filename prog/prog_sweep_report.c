@@ -179,6 +179,7 @@ static int draw(const sweep *s, const sweep_run *m)
   sph_plot_curve curve[SWEEP_COMPARED];
   double lo[2] = {INFINITY, INFINITY}, hi[2] = {0, 0};
   int n = 0;
+  const char *slash = strrchr(s->o->what, '/');
   snprintf(csv, sizeof csv, "%s/convergence.csv", s->directory);
   snprintf(png, sizeof png, "%s/convergence.png", s->directory);
   for (int c = 0; c < m->compared; c++) {
@@ -198,7 +199,7 @@ static int draw(const sweep *s, const sweep_run *m)
     }
     n++;
   }
-  const sph_plot_def def = {.title = s->o->what,
+  const sph_plot_def def = {.title = slash ? slash + 1 : s->o->what,
                             .x_label = by_spacing(s) ? "spacing [m]" : s->key[0].key,
                             .y_label = "distance from the reference",
                             .log_x = 1,

@@ -258,9 +258,12 @@ static int plot_table(const comparer *a, const char *png)
                               .y = get_text(a->kind, "y", NULL),
                               .label = get_text(a->node, "source", "reference"),
                               .points = 1}};
+  char x_label[40], y_label[SPH_CASE_NOTE];
+  snprintf(x_label, sizeof x_label, "time / %.4g s", time);
+  snprintf(y_label, sizeof y_label, "%s / %.4g", curves[0].y, curves[0].y_scale);
   sph_plot_def def = {.title = get_text(a->node, "name", NULL),
-                      .x_label = "scaled time",
-                      .y_label = get_text(a->node, "quantity", "")};
+                      .x_label = time == 1 ? NULL : x_label,
+                      .y_label = curves[0].y_scale == 1 ? NULL : y_label};
   return sph_plot_series(curves, 2, &def, png, a->error);
 }
 

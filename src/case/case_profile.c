@@ -302,11 +302,17 @@ static row *rows_of(const comparer *a, const profile *p)
   return rows;
 }
 
+static const char *unit_of(const quantity *q)
+{
+  const int number = sph_field_find(q->field);
+  return number < 0 ? "" : sph_field_get(number)->unit;
+}
+
 static void add_head(const comparer *a, const profile *p, int times, const quantity *q,
                      sph_text *text)
 {
-  int number = sph_field_find(q->field), axis = along(a);
-  const char *unit = number < 0 ? "" : sph_field_get(number)->unit;
+  const int axis = along(a);
+  const char *unit = unit_of(q);
   sph_text_add(text, "# %s: %s, and %s\n", get_text(a->node, "name", ""),
                get_text(a->node, "quantity", ""), get_text(a->node, "source", a->kind->key));
   for (int k = 0; k < times; k++) sph_text_add(text, "# _%d: t = %.9g s\n", k, p[k].time);
@@ -475,9 +481,19 @@ static void add_curve(const comparer *a, picture *p, const char *path, int exact
                                  .colour = exact ? 7 : 0};
 }
 
+/* "density [kg/m^3]"; of one that is drawn in a unit of its own "velocity / (1e-06 m/s)". */
+static void write_label(char label[2 * NAME], const char *what, double scale, const quantity *q)
+{
+  const char *unit = unit_of(q);
+  if (scale == 1)
+    snprintf(label, 2 * NAME, *unit ? "%.39s [%s]" : "%.39s", what, unit);
+  else
+    snprintf(label, 2 * NAME, *unit ? "%.39s / (%.3g %s)" : "%.39s / %.3g", what, scale, unit);
+}
+
 int sph_case_profile_plot(const comparer *a, const char *png)
 {
-  char path[SPH_PATH], x_label[NAME], y_label[2 * NAME];
+  char path[SPH_PATH], x_label[2 * NAME], y_label[2 * NAME];
   double times[TIMES] = {sph_case_end(a->c)}, scale = get_number(a->node, "value_scale", 1);
   quantity q = quantity_of(a);
   int given = times_of(a, times), count = given > 0 ? given : 1, axis = along(a);
@@ -487,9 +503,11 @@ int sph_case_profile_plot(const comparer *a, const char *png)
   for (int exact = 0; exact < 2; exact++)
     for (int k = 0; k < count; k++)
       for (int c = 0; c < q.components; c++) add_curve(a, p, path, exact, k, c, times[k]);
-  snprintf(x_label, sizeof x_label, axis < 0 ? "exact" : "%c [m]", 'x' + axis);
-  snprintf(y_label, sizeof y_label, scale == 1 ? "%s" : "%s/%.3g",
-           get_text(a->node, "quantity", ""), scale);
+  write_label(y_label, get_text(a->node, "quantity", ""), scale, &q);
+  if (axis < 0)
+    write_label(x_label, "exact", scale, &q);
+  else
+    snprintf(x_label, sizeof x_label, "%c [m]", 'x' + axis);
   sph_plot_def def = {.title = get_text(a->node, "name", NULL),
                       .x_label = x_label,
                       .y_label = y_label};

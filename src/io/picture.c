@@ -249,7 +249,7 @@ static void add_axes(const sph_picture *p, int k, double time, sph_text *script)
   } else {
     sph_text_add(script, column ? "''" : "'%c [%s]'", "xyz"[p->up], p -> length_unit);
     sph_text_add(script, "; set ytics %.6g\n",
-                 tics((p->hi[1] - p->lo[1]) / p->length, panel_y, 28));
+                 tics((p->hi[1] - p->lo[1]) / p->length, panel_y, panel_y < 300 ? 28 : 50));
   }
 }
 

@@ -78,12 +78,13 @@ static void add_head(const view *v, const char *title, sph_text *script)
   sph_text_gnuplot_string(script, about);
   sph_text_add(
       script,
-      " noenhanced\nset xlabel '%c [m]'\nset ylabel '%s [m]'\nset size ratio -1\nset key outside "
-      "bottom center horizontal noenhanced\nset style fill solid noborder\n",
+      " noenhanced\nset xlabel '%c [m]' offset 0, 0.4\nset ylabel '%s'\nset size ratio -1\nset key "
+      "outside "
+      "bottom center horizontal Left reverse samplen 1 noenhanced\nset style fill solid noborder\n",
       "xyz"[v->across],
       v -> dim == 1     ? ""
-           : v->up == 1 ? "y"
-                        : "z");
+           : v->up == 1 ? "y [m]"
+                        : "z [m]");
   const double more = 2 * sph_sim_dx(v->sim);
   sph_text_add(script, "set xrange [%.9g:%.9g]\n", v->lo[v->across] - more,
                v->hi[v->across] + more);

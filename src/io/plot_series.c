@@ -42,7 +42,7 @@ static void add_label(sph_text *script, const char *axis, const char *given, con
 {
   sph_text_add(script, "set %slabel ", axis);
   sph_text_gnuplot_string(script, given ? given : title);
-  sph_text_add(script, " noenhanced\n");
+  sph_text_add(script, *axis == 'x' ? " noenhanced offset 0, 0.4\n" : " noenhanced\n");
 }
 
 static void add_range(sph_text *script, const char *axis, double lo, double hi)
@@ -70,9 +70,10 @@ static void add_log(sph_text *script, const char *axis, double lo, double hi)
 static void add_head(const sph_plot_def *def, const char *x_title, const char *y_title,
                      sph_text *script)
 {
-  sph_text_add(script,
-               "set grid lc rgb '#e4e4e4' lt 1\nset border 3\n"
-               "set key outside bottom center horizontal Left reverse noenhanced spacing 1.3\n");
+  sph_text_add(
+      script,
+      "set grid lc rgb '#e4e4e4' lt 1\nset border 3\n"
+      "set key outside bottom center horizontal Left reverse noenhanced spacing 1.3 height 1.2\n");
   if (def->title) {
     sph_text_add(script, "set title ");
     sph_text_gnuplot_string(script, def->title);
@@ -96,7 +97,10 @@ static void add_plot(const sph_plot_curve *c, int k, long rows, const char *titl
     sph_text_add(script, "with %s pt %d ps %s lc rgb '%s'",
                  c->points == 2 ? "linespoints lw 1.6" : "points", shapes[k % 5],
                  rows > MANY ? "0.4" : "1.0", colour);
-  else
+  if (c->points == 1 && rows > MANY) /* of a size that one can tell in the key */
+    sph_text_add(script, " notitle, \\\n NaN with points pt %d ps 1.0 lc rgb '%s'", shapes[k % 5],
+                 colour);
+  if (!c->points)
     sph_text_add(script, "with lines lw %s lc rgb '%s'", rows > MANY ? "1.5" : "2.2", colour);
   sph_text_add(script, " title ");
   sph_text_gnuplot_string(script, c->label ? c->label : title);
