@@ -21,7 +21,7 @@ set xlabel "spacing dx [m], box 1 m"
 set ylabel "rms error over rms of the exact result"
 set key outside right samplen 2
 set xrange [1/150.:1/14.]
-columns = "2 3 5 6 7 8 10 11 14 17 18 19 20"
+columns = "2 3 5 6 7 8 11 12 15 19 21 22 23"
 plot for [c in columns] "$stage/$1" using 1:int(c) with linespoints title columnhead(int(c)), \
   x**2*30 with lines lc "gray" dt 2 title "order 2", x*3 with lines lc "gray" dt 3 title "order 1"
 END

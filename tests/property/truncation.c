@@ -8,7 +8,8 @@
 enum { ARRAYS = 9 };
 
 /* f = 2 + sin(kx + .3) cos(ky - .2) cos(kz + .1) and u = (f(x, y, z), f(y, z, x), f(z, x, y)) with
- * all their derivatives; without cosines of missing directions. */
+ * all their derivatives; without cosines of missing directions.  The points have the density, and
+ * what diffuses the conductivity, 4 - f. */
 typedef struct field {
   cloud c;
   sph_operator *op;
@@ -57,6 +58,7 @@ static void make_exact(field *w)
 static field make(int dim, int across, double h_over_dx, const char *kernel, double jitter)
 {
   field w = {.c = cloud_make(dim, across, jitter, 1, 0)};
+  for (long i = 0; i < w.c.n; i++) w.c.density[i] = 4 - derivative(&w, 0, -1, -1, i);
   w.op = cloud_operator(&w.c, (sph_operator_def){.h = h_over_dx / across, .kernel = kernel});
   for (int a = 0; a < 3; a++) {
     w.u[a] = cloud_array(w.c.n), w.lap[a] = cloud_array(w.c.n);
@@ -115,9 +117,18 @@ MEASURE(mls_2_second, sph_operator_mls(w->op, 2, w->u[0], NULL, NULL, w->out, NU
           w->G[0])
 GRADIENT(plain)
 GRADIENT(difference)
+GRADIENT(density)
 GRADIENT(symmetric)
 GRADIENT(plus)
 GRADIENT(corrected)
+static double velocity_gradient(field *w)
+{
+  if (sph_operator_gradient_vector(w->op, "corrected", u_of(w), w->out, NULL)) return NAN;
+  double *right[ARRAYS];
+  for (int a = 0; a < w->c.dim; a++)
+    for (int b = 0; b < w->c.dim; b++) right[a * w->c.dim + b] = w->G[a][b];
+  return off(w, w->c.dim * w->c.dim, right);
+}
 static double divergence(field *w)
 {
   if (sph_operator_divergence(w->op, "difference", u_of(w), w->out[0], NULL)) return NAN;
@@ -142,6 +153,19 @@ static double curl(field *w)
 #define LAPLACIAN(name, form) \
   MEASURE(name, sph_operator_laplacian(w->op, form, NULL, w->u[0], w->out[0], NULL), 1, w->lap)
 LAPLACIAN(lap_arithmetic, "arithmetic")
+/* div(k grad f) = k lap f + grad k . grad f, k = 4 - f. */
+static double lap_harmonic(field *w)
+{
+  if (sph_operator_laplacian(w->op, "harmonic", w->c.density, w->u[0], w->out[0], NULL)) return NAN;
+  double *right = cloud_array(w->c.n);
+  for (long i = 0; i < w->c.n; i++) {
+    right[i] = w->c.density[i] * w->lap[0][i];
+    for (int b = 0; b < w->c.dim; b++) right[i] -= w->G[0][b][i] * w->G[0][b][i];
+  }
+  const double result = off(w, 1, &right);
+  free(right);
+  return result;
+}
 LAPLACIAN(lap_corrected, "corrected")
 LAPLACIAN(lap_fatehi, "fatehi-manzari")
 MEASURE(grad_div, sph_operator_grad_div(w->op, u_of(w), w->out, NULL), w->c.dim, w->grad_div)
@@ -168,15 +192,18 @@ static const struct {
            {"mls 2", mls_2},
            {"gradient plain", gradient_plain},
            {"gradient difference", gradient_difference},
+           {"gradient density", gradient_density},
            {"gradient symmetric", gradient_symmetric},
            {"gradient plus", gradient_plus},
            {"gradient corrected", gradient_corrected},
            {"gradient cspm", cspm_slope},
            {"gradient mls 1", mls_1_slope},
            {"gradient mls 2", mls_2_slope},
+           {"velocity gradient", velocity_gradient},
            {"divergence difference", divergence},
            {"curl difference", curl},
            {"laplacian arithmetic", lap_arithmetic},
+           {"laplacian harmonic", lap_harmonic},
            {"laplacian corrected", lap_corrected},
            {"laplacian fatehi-manzari", lap_fatehi},
            {"second derivatives mls 2", mls_2_second},
