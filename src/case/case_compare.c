@@ -236,6 +236,22 @@ void sph_case_compare_free(sph_comparison *list, int n)
   sph_memory_free(list);
 }
 
+/* "front / (0.0572 m)": a column of the run in a scale of its own. */
+static int scaled_label(const char *csv, const sph_plot_curve *curve, char label[SPH_CASE_NOTE],
+                        sph_error *error)
+{
+  char title[128];
+  double *values = NULL;
+  long n = 0;
+  int status = sph_csv_read(csv, curve->y, 0, &values, &n, title, error);
+  sph_memory_free(values);
+  if (status) return status;
+  const char *open = strchr(title, '['), *close = open ? strchr(open, ']') : NULL;
+  snprintf(label, SPH_CASE_NOTE, close ? "%.60s / (%.4g %.*s)" : "%.60s / %.4g", curve->y,
+           curve->y_scale, close ? (int)(close - open) - 1 : 0, open ? open + 1 : "");
+  return SPH_OK;
+}
+
 /* The run's column and the points of the table. */
 static int plot_table(const comparer *a, const char *png)
 {
@@ -260,7 +276,8 @@ static int plot_table(const comparer *a, const char *png)
                               .points = 1}};
   char x_label[40], y_label[SPH_CASE_NOTE];
   snprintf(x_label, sizeof x_label, "time / %.4g s", time);
-  snprintf(y_label, sizeof y_label, "%s / %.4g", curves[0].y, curves[0].y_scale);
+  status = scaled_label(run, &curves[0], y_label, a->error);
+  if (status) return status;
   sph_plot_def def = {.title = get_text(a->node, "name", NULL),
                       .x_label = time == 1 ? NULL : x_label,
                       .y_label = curves[0].y_scale == 1 ? NULL : y_label};

@@ -57,10 +57,10 @@ static int bound(movie *m, const sph_snapshot *frame, int k)
   return SPH_OK;
 }
 
-static int widen(movie *m, const sph_snapshot *frame, int k)
+static int take(movie *m, const sph_snapshot *frame, int k)
 {
   (void)k;
-  return sph_picture_widen(&m->picture, frame, 1, m->error);
+  return sph_picture_take(&m->picture, frame, m->error);
 }
 
 static int name_frame(const movie *m, int k, const char *ending, char path[SPH_PATH])
@@ -186,12 +186,14 @@ static int make(movie *m)
   *p = (sph_picture){.field = m->field,
                      .width = def->width ? def->width : WIDTH,
                      .height = def->width ? def->height : WIDTH,
-                     .given = def->from != def->to,
                      .from = def->from,
                      .to = def->to};
   if (!status) status = visit_all(m, bound);
   sph_picture_view(p);
-  if (!status && !p->given) status = visit_all(m, widen);
+  if (!status && def->from == def->to) {
+    status = visit_all(m, take);
+    sph_picture_range(p);
+  }
   if (!status) status = visit_all(m, draw);
   if (!status) status = encode(m);
   remove_frames(m);

@@ -8,6 +8,8 @@
 #include "gnuplot.h"
 #include "memory.h"
 
+enum { SAMPLES = 2000000 }; /* of values, for the range of colours */
+
 /* Pixels. */
 static const double left = 80, right = 120, top = 45, bottom = 60, gap_x = 60, gap_y = 36;
 
@@ -19,8 +21,9 @@ void sph_picture_bound(sph_picture *p, const sph_snapshot *frame)
     snprintf(p->field_unit, sizeof p->field_unit, "%s", frame->unit);
     for (int part = 0; part < SPH_PARTS; part++)
       for (int d = 0; d < 3; d++) p->box_lo[part][d] = INFINITY, p->box_hi[part][d] = -INFINITY;
-    if (!p->given) p->from = INFINITY, p->to = -INFINITY;
   }
+  p->particles += frame->n[SPH_FLUIDS];
+  p->frames++;
   for (int part = 0; part < SPH_PARTS; part++)
     for (long i = 0; i < 3 * frame->n[part]; i++) {
       p->box_lo[part][i % 3] = fmin(p->box_lo[part][i % 3], frame->x[part][i]);
@@ -72,33 +75,30 @@ static int rising(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* The colours go over the values but for half a percent at either end: one splash must not bleach
- * the rest.  In 1D nothing is left out. */
-int sph_picture_widen(sph_picture *p, const sph_snapshot *frame, int n, sph_error *error)
+int sph_picture_take(sph_picture *p, const sph_snapshot *frame, sph_error *error)
 {
-  const double cut = p->dim == 1 ? 0 : 0.005;
-  size_t room = 0;
-  long count = 0;
-  for (int k = 0; k < n; k++) room += (size_t)frame[k].n[SPH_FLUIDS];
-  double *value = SPH_NEW(double, room, "a picture", error);
-  if (!value) return SPH_ERR_MEMORY;
-  for (int k = 0; k < n; k++) {
-    const double *v = frame[k].value[SPH_FLUIDS], *x = frame[k].x[SPH_FLUIDS];
-    for (long i = 0; v && i < frame[k].n[SPH_FLUIDS]; i++)
-      if (isfinite(v[i]) && visible(p, x + 3 * i)) value[count++] = v[i];
+  const double *v = frame->value[SPH_FLUIDS], *x = frame->x[SPH_FLUIDS];
+  const long stride = 1 + p->particles / SAMPLES;
+  if (!p->value) {
+    p->value = SPH_NEW(double, p->particles / stride + p->frames, "a picture", error);
+    if (!p->value) return SPH_ERR_MEMORY;
   }
-  qsort(value, (size_t)count, sizeof *value, rising);
-  if (count) {
-    p->from = fmin(p->from, value[(long)(cut * (double)(count - 1))]);
-    p->to = fmax(p->to, value[(long)((1 - cut) * (double)(count - 1))]);
-  }
-  sph_memory_free(value);
+  for (long i = 0; v && i < frame->n[SPH_FLUIDS]; i += stride)
+    if (isfinite(v[i]) && visible(p, x + 3 * i)) p->value[p->values++] = v[i];
   return SPH_OK;
 }
 
-static void choose_range(sph_picture *p)
+void sph_picture_range(sph_picture *p)
 {
-  if (!(p->from <= p->to)) p->from = 0, p->to = 1;
+  const double cut = p->dim == 1 ? 0 : 0.005, last = (double)(p->values - 1);
+  p->from = 0, p->to = 1;
+  if (p->values > 0) {
+    qsort(p->value, (size_t)p->values, sizeof *p->value, rising);
+    p->from = p->value[(long)(cut * last)];
+    p->to = p->value[(long)((1 - cut) * last)];
+  }
+  sph_memory_free(p->value);
+  p->value = NULL;
   if (p->from > 0 && p->from < 0.3 * p->to) p->from = 0;
   double least = fmax(1e-12, 1e-4 * fmax(fabs(p->from), fabs(p->to))); /* a constant field */
   if (p->to - p->from < least) {
@@ -208,7 +208,7 @@ static void add_head(const sph_picture *p, sph_text *script)
   sph_text_add(script, "set cbrange [%.9g:%.9g]\nset cblabel ", p->from / p->unit, p->to / p->unit);
   sph_text_gnuplot_string(script, p->label);
   sph_text_add(script, " offset 1.2, 0\nset cbtics %.6g",
-               tics((p->to - p->from) / p->unit, span, 70));
+               tics((p->to - p->from) / p->unit, span, span < 300 ? 35 : 70));
   sph_text_add(script, "\nset colorbox vertical user origin screen %.4f, %.4f size %.4f, %.4f\n",
                1 - (right - 22) / size[0], bottom / size[1], 16 / size[0], span / size[1]);
   sph_text_add(script, "set xrange [%.6g:%.6g]\n", p->lo[0] / p->length, p->hi[0] / p->length);
@@ -293,7 +293,6 @@ int sph_picture_draw(sph_picture *p, const sph_snapshot *frame, int n, const cha
   int index = 0, status = sph_gnuplot_names(&names, png, error);
   if (status) return status;
   p->n = n;
-  if (!p->given) choose_range(p);
   choose_label(p);
   choose_length(p);
   choose_layout(p);

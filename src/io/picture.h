@@ -5,12 +5,13 @@
 
 typedef struct sph_picture {
   const char *field;
-  double width, height;                              /* of the sheet, at most [pixels] */
-  int given;                                         /* the range of the colours */
-  double from, to;                                   /* of the colours, SI */
-  int dim, across, up;                               /* the directions drawn */
-  int slice;                                         /* the direction looked along in 3D, or -1 */
-  double slice_at, spacing;                          /* [m] */
+  double width, height;           /* of the sheet, at most [pixels] */
+  long frames, particles, values; /* that were shown; of fluids, in all of them; of `value` */
+  double *value;                  /* some of the values that will be seen, SI */
+  double from, to;                /* of the colours, SI */
+  int dim, across, up;            /* the directions drawn */
+  int slice;                      /* the direction looked along in 3D, or -1 */
+  double slice_at, spacing;       /* [m] */
   double box_lo[SPH_PARTS][3], box_hi[SPH_PARTS][3]; /* of all particles [m] */
   double lo[2], hi[2];                               /* of what is drawn [m] */
   char field_unit[64];
@@ -23,12 +24,14 @@ typedef struct sph_picture {
   double panel[2];      /* size of one [pixels] */
 } sph_picture;
 
-/* All frames that will be drawn are shown to it in turn: for the bounds; behind sph_picture_view
- * for the range of colours, unless that is given.  Then any of them are drawn, n of them in a
- * sheet. */
+/* All frames that will be drawn are shown to it in turn: for the bounds; behind sph_picture_view,
+ * unless the range of colours is given, for their values, of which that is made: it leaves out half
+ * a percent of all at either end, so that one splash does not bleach the rest (in 1D none).  Then
+ * any of them are drawn, n of them in a sheet. */
 void sph_picture_bound(sph_picture *p, const sph_snapshot *frame);
 void sph_picture_view(sph_picture *p);
-int sph_picture_widen(sph_picture *p, const sph_snapshot *frame, int n, sph_error *error);
+int sph_picture_take(sph_picture *p, const sph_snapshot *frame, sph_error *error);
+void sph_picture_range(sph_picture *p); /* also frees the values */
 int sph_picture_draw(sph_picture *p, const sph_snapshot *frame, int n, const char *png,
                      sph_error *error);
 

@@ -20,7 +20,9 @@ static int draw(const sph_snapshot *frame, int n, const char *field, const char 
     sph_picture_bound(&p, &frame[k]);
   }
   sph_picture_view(&p);
-  int status = sph_picture_widen(&p, frame, n, error);
+  int status = SPH_OK;
+  for (int k = 0; k < n && !status; k++) status = sph_picture_take(&p, &frame[k], error);
+  sph_picture_range(&p);
   return status ? status : sph_picture_draw(&p, frame, n, png, error);
 }
 
