@@ -30,9 +30,9 @@ enum { SPH_PLANES_MAX = 6 };
 
 typedef struct sph_boundary {
   const char *name; /* "adami", "dbc", "mirror" */
-  int no_slip; /* 1: viscous terms see 2 v_prescribed - <v_fluid> (adami, in the frame of a wall that
-                  turns), v_prescribed (dbc), 2 v_prescribed - v (mirror); 0: none of the wall; of a
-                  mirror the reflected v */
+  int no_slip; /* 1: viscous terms see 2 v_prescribed - <v_fluid> (adami, in the frame of a wall
+                  that turns), v_prescribed (dbc), 2 v_prescribed - v (mirror); 0: none of the wall;
+                  of a mirror the reflected v */
   int tension; /* 1: wall pressure may be negative; 0: p_w >= 0 (thin films go wrong otherwise), of
                   dbc rho_w >= rho0; a mirror shows the pressure of its fluid */
   double temperature; /* [K] of the wall's surface, for conduction; 0: adiabatic */

@@ -21,9 +21,9 @@ int sph_sim_admit_retry(sph_sim *sim, const char *format, ...)
   return SPH_RETRY;
 }
 
-/* After some list builds: pairs inside the support, and particles nearer than 0.1 dx to another.  These
- * are reported, not refused: lone particles of spray may stick together, and a smaller step would
- * not part them. */
+/* After some list builds: pairs inside the support, and particles nearer than 0.1 dx to another.
+ * These are reported, not refused: lone particles of spray may stick together, and a smaller step
+ * would not part them. */
 static void count(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;

@@ -1,4 +1,4 @@
-/* libFuzzer: any bytes are a file of VTK with particles, or refused with a message that names it. */
+/* libFuzzer: any bytes are a file of VTK with particles, or refused by a message that names it. */
 #include "fuzz_file.h"
 
 #include <string.h>

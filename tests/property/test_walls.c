@@ -160,8 +160,8 @@ static void planes_edges_corners(void **state)
   box_of_mirrors(3, 7, "c2");
 }
 
-/* A liquid of the first n particles of c that shifts, whose viscosity is switched, or, where that of
- * the term is, with corrected gradients. */
+/* A liquid of the first n particles of c that shifts, whose viscosity is switched, or, where that
+ * of the term is, with corrected gradients. */
 static sph_sim *drifting(const cloud *c, long n, const sph_sim_def *def, sph_term term)
 {
   sph_sim *sim = sph_sim_create(def);
