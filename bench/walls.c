@@ -107,10 +107,9 @@ static void manufactured_row(const char *name, int no_slip, double h_over_dx)
 
 static void manufactured(void)
 {
-  puts(
-      "| model | wall | h/Δx | L1(v)/U at 16 across | 32 | 64 | order "
-      "| L1(p)/ρU² at 64 | order |\n"
-      "|---|---|---|---|---|---|---|---|---|");
+  puts("| model | wall | h/Δx | L1(v)/U at 16 across | 32 | 64 | order "
+       "| L1(p)/ρU² at 64 | order |\n"
+       "|---|---|---|---|---|---|---|---|---|");
   for (int k = 0; k < MODELS; k++)
     for (int no_slip = 0; no_slip < 2; no_slip++) manufactured_row(model[k], no_slip, 0);
   for (int k = 0; k < MODELS; k++) manufactured_row(model[k], 1, 2);
