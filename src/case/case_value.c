@@ -170,7 +170,8 @@ static int muparser_problem(formula *f, muParserHandle_t parser)
     return strlen(token) == 1 && strchr("xyzt", token[0])
                ? problem(f, (size_t)f->origin[at], "'%s' is not known here; right is %s", token,
                          expected(f, right))
-               : problem(f, (size_t)f->origin[at], "'%s' is no parameter and no function", token);
+               : problem(f, (size_t)f->origin[at],
+                         "'%s' is no parameter and no function, nor a table of tables", token);
   char *tail = strstr(message, " at position"); /* of the translated text: would mislead */
   if (tail) *tail = 0;
   return problem(f, (size_t)f->origin[at], "not an expression: %s", message);

@@ -96,7 +96,8 @@ static int choose_cells(filler *f, const sph_fill *fill)
     if (!(fabs(from) < 1e9 && fabs(to) < 1e9 && count <= MOST))
       return sph_error_set(f->error, SPH_ERR_ARGUMENT,
                            "a shape from %g to %g m has too many places for particles dx = %g m "
-                           "apart",
+                           "apart; a coarser spacing is right, or another unit (unit: 1 mm) of a "
+                           "surface from a file",
                            lower[d], upper[d], f->dx);
     f->from[d] = (long)from;
     f->to[d] = (long)to;

@@ -1,6 +1,7 @@
 #include "sim_prepare.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "cpu.h"
@@ -15,6 +16,7 @@
 #include "sim_implicit.h"
 #include "sim_keep.h"
 #include "sim_mirror.h"
+#include "sim_overlap.h"
 #include "sim_parts.h"
 #include "sim_relax.h"
 #include "sim_rhs.h"
@@ -499,6 +501,30 @@ static int make_rates_anew(sph_sim *sim)
   return sim->error.status;
 }
 
+/* Says of which groups the first two are that are too near each other. */
+static int refuse_near(sph_sim *sim)
+{
+  const double near = 0.1 * sim->dx;
+  char first[300] = "", place[100];
+  sph_neighbors *search = sph_sim_overlap_search(sim, near);
+  for (int g = 0; g < sim->groups && search; g++)
+    for (int s = 0; s < sim->groups && !sim->group[g]->wall && !*first; s++) {
+      const sph_group *a = sim->group[g], *b = sim->group[s];
+      sph_overlap found = {0};
+      if (sph_sim_interaction_same_species(a, b))
+        found = sph_sim_overlap_find(sim, search, g, s, near);
+      sph_sim_overlap_place(sim, found.x, place, sizeof place);
+      if (found.n)
+        snprintf(first, sizeof first, ", the first of %s at %s to one of %s", a->name, place,
+                 a == b ? "its own" : b->name);
+    }
+  sph_neighbors_free(search);
+  return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                      "%ld particles start nearer than 0.1 dx = %g m to another%s (a wall in the "
+                      "fluid, or two shapes that overlap? difference cuts one out of the other)",
+                      sim->near, near, first);
+}
+
 int sph_sim_prepare(sph_sim *sim)
 {
   if (!sph_sim_data_ok(sim)) return sph_sim_status(sim);
@@ -523,12 +549,7 @@ int sph_sim_prepare(sph_sim *sim)
   if (status > 0)
     status =
         sph_sim_fail(sim, SPH_ERR_ARGUMENT, "the initial state is not admissible: %s", sim->retry);
-  if (!status && sim->near)
-    status = sph_sim_fail(
-        sim, SPH_ERR_ARGUMENT,
-        "%ld particles start nearer than 0.1 dx = %g m to another (a wall in the fluid, "
-        "or two shapes that overlap?)",
-        sim->near, 0.1 * sim->dx);
+  if (!status && sim->near) status = refuse_near(sim);
   if (!status && (sim->loop_terms & SPH_TRANSPORT) && sim->surface > 0)
     status = sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                           "transport-velocity: %ld particles start at a free surface, which would "

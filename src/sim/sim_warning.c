@@ -119,5 +119,6 @@ int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size)
   if (sim->prepared) sph_sim_warning_speeds(&f, sim);
   if (sim->prepared) sph_sim_warning_resolution(&f, sim);
   if (sim->prepared) sph_sim_warning_events(&f, sim);
+  if (sim->prepared) sph_sim_warning_overlap(&f, sim);
   return f.found > k;
 }

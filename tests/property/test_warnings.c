@@ -238,6 +238,96 @@ static void events(void **state)
   sph_sim_free(sim);
 }
 
+/* ---- bodies in each other */
+
+/* Particles dx = 0.05 m apart; oil lies on water, y = 0.5 m, but for (right, down) spacings. */
+static sph_sim *layers(double right, double down, int periodic)
+{
+  const double dx = 0.05, move[2] = {right * dx, -down * dx};
+  sph_sim_def def = {.dim = 2, .dx = dx};
+  if (periodic) def.periodic[1] = 1, def.length[1] = 1;
+  sph_sim *sim = sph_sim_create(&def);
+  sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1, 0.5}, 1000);
+  sph_group *oil = sph_group_box(sim, "oil", (double[]){0, 0.5}, (double[]){1, 1}, 800);
+  sph_group_set_eos(water, sph_eos_tait(1000, 10, 7));
+  sph_group_set_eos(oil, sph_eos_tait(800, 10, 7));
+  for (int d = 0; d < 2; d++) {
+    double *x = sph_group_write(oil, "position", d);
+    for (long i = 0; i < sph_group_count(oil); i++) x[i] += move[d];
+  }
+  sph_sim_add_term(sim, sph_term_continuity());
+  sph_sim_add_term(sim, sph_term_pressure());
+  return sim;
+}
+
+/* The only warning has these parts; part[0] == NULL: there is none. */
+static void says(sph_sim *sim, const char *const part[4])
+{
+  char text[400] = "";
+  if (sph_sim_evaluate(sim)) fail_msg("%s", sph_sim_error(sim));
+  assert_int_equal(sph_sim_warning(sim, 0, text, sizeof text), part[0] != NULL);
+  for (int p = 0; p < 4 && part[p]; p++)
+    if (!strstr(text, part[p])) fail_msg("\"%s\" lacks \"%s\"", text, part[p]);
+  if (sph_sim_warning(sim, 1, text, sizeof text)) fail_msg("also: \"%s\"", text);
+  sph_sim_free(sim);
+}
+
+/* Faces that touch, also askew, and bodies that are far apart have no warning. */
+static void overlap(void **state)
+{
+  static const char *const none[4] = {NULL};
+  static const char *const over[4] = {"water and oil: 20 particles of water",
+                                      "nearer than 0.7 dx = 0.035 m",
+                                      "the first at (0.025 0.475) m", "difference"};
+  static const char *const gap[4] = {"water and oil: there is a gap", " 1.5 dx apart", "(0.",
+                                     "1 is right"};
+  (void)state;
+  says(layers(0, 0, 0), none);
+  says(layers(0.5, 0, 0), none);
+  says(layers(0, 0.29, 0), none);
+  says(layers(0, 0.31, 0), over);
+  says(layers(0, 3.51, 0), (const char *const[4]){"water and oil: 80 particles of water"});
+  says(layers(0, -0.24, 0), none);
+  says(layers(0.5, -0.14, 0), none);
+  says(layers(0, -0.5, 0), gap);
+  says(layers(0, -0.91, 0), none);
+  says(layers(0, -0.4, 1), /* oil's upper side meets the water's lower one */
+       (const char *const[4]){"water and oil: 20 particles of water", "first at (0.025 0.025) m"});
+}
+
+/* A piston of 6 times 3 particles, in the floor of a tank or cut out of it. */
+static void overlap_of_walls(void **state)
+{
+  (void)state;
+  for (int cut = 0; cut < 2; cut++) {
+    sph_sim *sim = layers(0, 0, 0);
+    const double split[3] = {0.5, 0.8, 1.15};
+    sph_group *floor = sph_group_create(sim, "tank", "wall");
+    sph_group_add_box(floor, (double[]){-0.15, -0.15}, (double[]){split[0], 0}, 1000);
+    if (!cut) sph_group_add_box(floor, (double[]){split[0], -0.15}, (double[]){split[1], 0}, 1000);
+    sph_group_add_box(floor, (double[]){split[1], -0.15}, (double[]){split[2], 0}, 1000);
+    sph_group *piston = sph_group_create(sim, "piston", "wall");
+    sph_group_add_box(piston, (double[]){split[0], -0.15}, (double[]){split[1], 0}, 1000);
+    sph_group_set_boundary(floor, sph_boundary_adami());
+    sph_group_set_boundary(piston, sph_boundary_adami());
+    says(sim, cut ? (const char *const[4]){NULL}
+                  : (const char *const[4]){"tank and piston: 18 particles of tank",
+                                           "the first at (0.525 -0.", "cut out of each other"});
+  }
+}
+
+/* So near that steps would be hopeless: an error, which says who and where. */
+static void refused(void **state)
+{
+  (void)state;
+  sph_sim *sim = layers(0, 0.95, 0);
+  assert_int_equal(sph_sim_evaluate(sim), SPH_ERR_ARGUMENT);
+  if (!strstr(sph_sim_error(sim), "40 particles start nearer than 0.1 dx = 0.005 m to another, the "
+                                  "first of water at (0.025 0.475) m to one of oil"))
+    fail_msg("\"%s\"", sph_sim_error(sim));
+  sph_sim_free(sim);
+}
+
 /* ---- the cases that come along */
 
 /* Those that have a warning, meant so: the patch is drawn out to almost twice dx; the standing wave
@@ -291,9 +381,18 @@ static void shipped(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(none),       cmocka_unit_test(range),     cmocka_unit_test(mach),
-      cmocka_unit_test(pressure),   cmocka_unit_test(neighbors), cmocka_unit_test(thin_body),
-      cmocka_unit_test(thin_walls), cmocka_unit_test(events),    cmocka_unit_test(shipped),
+      cmocka_unit_test(none),
+      cmocka_unit_test(range),
+      cmocka_unit_test(mach),
+      cmocka_unit_test(pressure),
+      cmocka_unit_test(neighbors),
+      cmocka_unit_test(thin_body),
+      cmocka_unit_test(thin_walls),
+      cmocka_unit_test(events),
+      cmocka_unit_test(shipped),
+      cmocka_unit_test(overlap),
+      cmocka_unit_test(overlap_of_walls),
+      cmocka_unit_test(refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

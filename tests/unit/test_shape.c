@@ -543,7 +543,7 @@ static void failures_stick_to_the_simulation(void **state)
   for (int k = 0; k < 5; k++) {
     static const char *const says[] = {"without end", "of 3 dimensions; right is 2",
                                        "known are square, hexagonal", "no place of the lattice",
-                                       "too many places"};
+                                       "apart; a coarser spacing is right, or another unit"};
     sph_error e = {0};
     sph_sim *sim = sim_of(2, k == 4 ? 1e-7 : 0.1);
     sph_group *g = sph_group_create(sim, "g", "fluid");
