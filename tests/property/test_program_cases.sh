@@ -132,6 +132,23 @@ fi
 [[ -z $(ls "$TMPDIR") ]]
 ok $? "nothing is left behind"
 
+# ---- the tutorial
+
+# Each YAML block of section 4 stands in the case, word for word.
+whole=$(<"$SRCDIR/cases/piston-hill-3d.yml") good=0 blocks=0 block='' inside=0
+while IFS= read -r line; do
+  if [[ $line == '```yaml' ]]; then
+    inside=1 block=$'\n' blocks=$((blocks + 1))
+  elif [[ $inside == 1 && $line == '```' ]]; then
+    inside=0
+    [[ $whole == *"$block"* ]] || { good=1; echo "# not in the case:$block" | sed '2,$s/^/# /'; }
+  elif [[ $inside == 1 ]]; then
+    block+=$line$'\n'
+  fi
+done < <(sed -n '/^## 4\. /,/^## 5\. /p' "$SRCDIR/docs/tutorial.md")
+[[ $good == 0 && $blocks -ge 5 ]]
+ok $? "what the tutorial shows of its case stands in the case"
+
 # ---- the schema
 
 run 0 "$sphode" schema && cmp out "$SRCDIR/docs/sphode.schema.json"
