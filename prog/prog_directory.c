@@ -81,17 +81,21 @@ int sph_prog_directory_take(const char *directory, int force)
   if (make(directory)) return -1;
   int at = sph_prog_directory_hold(directory);
   if (at < 0) return -1;
-  if (!force &&
-      (!faccessat(at, "summary.json", F_OK, 0) || !faccessat(at, "work-precision.csv", F_OK, 0) ||
-       !faccessat(at, "spectrum.txt", F_OK, 0) || !faccessat(at, "sweep.csv", F_OK, 0)))
+  const int ended = !faccessat(at, "summary.json", F_OK, 0) ||
+                    !faccessat(at, "work-precision.csv", F_OK, 0) ||
+                    !faccessat(at, "spectrum.txt", F_OK, 0) || !faccessat(at, "sweep.csv", F_OK, 0);
+  const int goes_on = sph_checkpoint_find(directory, 0, NULL, 0);
+  if (!force && goes_on)
     sph_prog_error(PROG_FAILED,
-                   "%s holds a run that ended; --output DIR goes elsewhere, --force writes over it",
+                   "%s holds a run that %s; sphode restart %s goes on with it%s, --output DIR goes "
+                   "elsewhere, --force writes over it",
+                   directory, ended ? "ended or was stopped" : "was interrupted", directory,
+                   ended ? " (--until TIME: further)" : "");
+  else if (!force && ended)
+    sph_prog_error(PROG_FAILED,
+                   "%s holds a run that ended or was stopped; --output DIR goes elsewhere, --force "
+                   "writes over it",
                    directory);
-  else if (!force && sph_checkpoint_find(directory, 0, NULL, 0))
-    sph_prog_error(PROG_FAILED,
-                   "%s holds a run that was interrupted; sphode restart %s goes on with it, "
-                   "--output DIR goes elsewhere, --force writes over it",
-                   directory, directory);
   else if (faccessat(at, "case.yml", F_OK, 0) || !remove_old(at, directory))
     return at;
   close(at);

@@ -79,6 +79,16 @@ static yaml_mark_t mark_of(const reader *r, size_t byte)
   return mark;
 }
 
+/* What it mostly means, and helps. */
+static const char *remedy(const char *problem)
+{
+  if (strstr(problem, "mapping values are not allowed"))
+    return "; a key has a space behind its ':', an expression with ': ' in it stands in quotes";
+  if (strstr(problem, "cannot start any token"))
+    return "; lines are indented with spaces, not tabs";
+  return "";
+}
+
 static int advance(reader *r)
 {
   yaml_event_delete(&r->event);
@@ -92,8 +102,8 @@ static int advance(reader *r)
     snprintf(what, sizeof what, "%s; a case file is plain text in UTF-8", problem);
     return fail_at(r, mark_of(r, r->yaml.problem_offset), what);
   }
-  snprintf(what, sizeof what, "not YAML: %s%s%s", problem, r->yaml.context ? ", " : "",
-           r->yaml.context ? r->yaml.context : "");
+  snprintf(what, sizeof what, "not YAML: %s%s%s%s", problem, r->yaml.context ? ", " : "",
+           r->yaml.context ? r->yaml.context : "", remedy(problem));
   return fail_at(r, r->yaml.problem_mark, what);
 }
 

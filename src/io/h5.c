@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "memory.h"
 
@@ -25,6 +26,17 @@ void sph_h5_leave(sph_h5 *h5)
 static void check(sph_h5 *h5, int ok)
 {
   if (!ok) h5->failed = 1;
+}
+
+hid_t sph_h5_open(const char *path, sph_error *error)
+{
+  const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0)
+    sph_error_set(error, SPH_ERR_FILE,
+                  access(path, F_OK) ? "%s: no such HDF5 file"
+                                     : "%s: is no HDF5 file, or is cut short, or may not be read",
+                  path);
+  return file;
 }
 
 hid_t sph_h5_group(sph_h5 *h5, hid_t where, const char *name)

@@ -18,6 +18,8 @@ typedef struct sph_h5 {
 void sph_h5_enter(sph_h5 *h5);
 void sph_h5_leave(sph_h5 *h5);
 
+/* A file to read; < 0: there is none of that name, or it is none of HDF5, as error says. */
+hid_t sph_h5_open(const char *path, sph_error *error);
 /* A new group of that name; close it with H5Gclose. */
 hid_t sph_h5_group(sph_h5 *h5, hid_t where, const char *name);
 /* Attributes; count == 0: a scalar. */

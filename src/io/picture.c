@@ -11,7 +11,7 @@
 enum { SAMPLES = 2000000 }; /* of values, for the range of colours */
 
 /* Pixels. */
-static const double left = 80, right = 120, top = 45, bottom = 60, gap_x = 60, gap_y = 36;
+static const double left = 80, right = 145, top = 45, bottom = 60, gap_x = 60, gap_y = 36;
 
 void sph_picture_bound(sph_picture *p, const sph_snapshot *frame)
 {

@@ -137,8 +137,7 @@ int sph_snapshot_read(const char *path, const char *field, sph_snapshot *snapsho
   reader r = {.path = path, .error = &own};
   *snapshot = (sph_snapshot){0};
   sph_h5_enter(&h5);
-  r.file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (r.file < 0) sph_error_set(&own, SPH_ERR_FILE, "%s: no such HDF5 file", path);
+  r.file = sph_h5_open(path, &own);
   if (own.status == SPH_OK) read_header(&r, snapshot);
   for (int part = 0; own.status == SPH_OK && part < SPH_PARTS; part++)
     read_part(&r, part, field, snapshot);
@@ -157,8 +156,7 @@ int sph_snapshot_read_time(const char *path, double *time, sph_error *error)
   sph_snapshot snapshot = {0};
   reader r = {.path = path, .error = &own};
   sph_h5_enter(&h5);
-  r.file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (r.file < 0) sph_error_set(&own, SPH_ERR_FILE, "%s: no such HDF5 file", path);
+  r.file = sph_h5_open(path, &own);
   if (own.status == SPH_OK) read_header(&r, &snapshot);
   if (r.file >= 0) H5Fclose(r.file);
   sph_h5_leave(&h5);

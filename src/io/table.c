@@ -181,10 +181,8 @@ int sph_table_read(sph_table *table, const char *path, int part, const char *wan
   *table = (sph_table){0};
   snprintf(name, sizeof name, "PartType%d", part);
   sph_h5_enter(&h5);
-  hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0)
-    sph_error_set(&own, SPH_ERR_FILE, "%s: no such HDF5 file", path);
-  else {
+  hid_t file = sph_h5_open(path, &own);
+  if (file >= 0) {
     read_part(&r, file, name);
     H5Fclose(file);
   }

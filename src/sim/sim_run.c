@@ -77,8 +77,10 @@ static int check_interval(sph_sim *sim, const sph_output *output)
 {
   double step = sph_integrator_time(sim->integrator) - sph_integrator_previous(sim->integrator);
   if (!(output->interval > 0) || step <= MOST_FRAMES * output->interval) return SPH_OK;
-  return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "output %s: an interval of %g s in steps of %g s",
-                      output->name ? output->name : "", output->interval, step);
+  return sph_sim_fail(
+      sim, SPH_ERR_ARGUMENT,
+      "output %s: an interval of %g s is too short for steps of %g s; right is at least %.2g s",
+      output->name ? output->name : "", output->interval, step, step / MOST_FRAMES);
 }
 
 /* All frames due in the last step up to t. */

@@ -166,7 +166,7 @@ static void refused(void **state)
   refuse("nothing.csv", NULL, "cannot read");
   refuse("nothing.hdf", NULL, "no such HDF5 file");
   refuse("a.txt", "1 2", "known are .csv, .hdf, .hdf5, .vtu, .vtp");
-  refuse("a.hdf5", "not HDF5", "no such HDF5 file");
+  refuse("a.hdf5", "not HDF5", "is no HDF5 file, or is cut short");
   refuse("a.csv", "x,z\n1,2\n", "no column \"y\"");
   refuse("a.csv", "x,y\n", "no particles");
   refuse("a.csv", "x,y,velocty_x\n1,2,3\n",

@@ -200,7 +200,7 @@ awk -F, -v a="$(value dx=L_10)" -v b="$(value dx=L_20)" '
   END { exit bad || n != 3 }' channel-sweep/sweep.csv || { sed 's/^/# /' channel-sweep/sweep.csv; false; }
 ok $? "sweep.csv holds distances and their order"
 if command -v gnuplot >/dev/null; then [[ -s channel-sweep/convergence.png ]]; ok $? "its picture"; else ok 0 "its picture # SKIP no gnuplot"; fi
-run 1 "$sphode" sweep channel.yml --vary dx=L/10 "${small[@]}" && grep -q "holds a run that ended" err
+run 1 "$sphode" sweep channel.yml --vary dx=L/10 "${small[@]}" && grep -q "holds a run that ended or was stopped" err
 ok $? "a sweep that ended is not written over"
 run 3 "$sphode" sweep channel.yml --vary dx=L/10 --vary "terms.gravity.acceleration=[F,0],[2*F,0]" "${small[@]}" -o two -q &&
   [[ ! -s out && -d two/dx=L_10,terms.gravity.acceleration=_F_0_ && $(wc -l <two/sweep.csv) == 3 ]]

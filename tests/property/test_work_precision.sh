@@ -132,7 +132,7 @@ refused 1 "an unknown integrator tells the nearest" "leapfog.* is unknown; the n
 refused 1 "an unknown key behind a +" "unknown key 'lniear'" "$wave" --integrators leapfrog+lniear=pcg -o x
 refused 1 "a case that is not there" "No such file" nothing.yml -o x
 refused 1 "an end without its unit's kind" "run.end" "$wave" --until 3kg -o x
-refused 1 "a directory with results" "holds a run that ended" "$sod" "${small[@]}" -o sod
+refused 1 "a directory with results" "holds a run that ended or was stopped" "$sod" "${small[@]}" -o sod
 refused 2 "a tolerance that is no number" "--tolerances 1e-3,x: wanted" "$wave" --tolerances 1e-3,x -o x
 refused 2 "a step of zero" "--cfl 0: wanted" "$wave" --cfl 0 -o x
 refused 2 "an unknown field tells the known ones" "known are position, velocity, density" "$wave" --field pressure -o x
