@@ -15,7 +15,8 @@ typedef struct command {
 
 static const command commands[] = {
     {"new", "[TEMPLATE]", "ofq", sph_prog_new, "write a case to begin with, with comments",
-     "  TEMPLATE is tank (default), piston, channel or gas; the file is TEMPLATE.yml here.\n"
+     "  TEMPLATE is tank (default), piston, channel, gas or piston-hill-3d (the tutorial's, with\n"
+     "  hill.stl beside it); the file is TEMPLATE.yml here.\n"
      "\n"
      "  -o, --output FILE      another name; -: to standard output\n"
      "  -f, --force            write over a file\n"

@@ -8,10 +8,13 @@
 
 #include "prog.h"
 
+/* hill.stl: of the case before it. */
+static int is_surface(const prog_template *t) { return t->name && strchr(t->name, '.') != NULL; }
+
 static const prog_template *find(const char *name)
 {
   for (const prog_template *t = sph_prog_templates; t->name; t++)
-    if (!strcmp(t->name, name)) return t;
+    if (!strcmp(t->name, name) && !is_surface(t)) return t;
   return NULL;
 }
 
@@ -19,7 +22,8 @@ static const prog_template *find(const char *name)
 static void list(FILE *to)
 {
   for (const prog_template *t = sph_prog_templates; t->name; t++)
-    fprintf(to, "  %-10s %.*s\n", t->name, (int)strcspn(t->text + 2, ".\n"), t->text + 2);
+    if (!is_surface(t))
+      fprintf(to, "  %-14s %.*s\n", t->name, (int)strcspn(t->text + 2, ".\n"), t->text + 2);
 }
 
 static int write_file(const char *path, const char *text, int force)
@@ -36,6 +40,22 @@ static int write_file(const char *path, const char *text, int force)
   return bad ? sph_prog_error(PROG_FAILED, "cannot write %s: %s", path, strerror(errno)) : PROG_OK;
 }
 
+/* The surfaces of a case, beside the file that it goes to. */
+static int write_surfaces(const prog_template *t, const char *name, int force)
+{
+  char path[4096];
+  const char *slash = strrchr(name, '/');
+  const int folder = slash ? (int)(slash + 1 - name) : 0;
+  int status = PROG_OK;
+  for (t++; is_surface(t) && !status; t++) {
+    const int n = snprintf(path, sizeof path, "%.*s%s", folder, name, t->name);
+    if (n < 0 || (size_t)n >= sizeof path)
+      return sph_prog_error(PROG_FAILED, "the name of a folder with %d characters", folder);
+    status = write_file(path, t->text, force);
+  }
+  return status;
+}
+
 int sph_prog_new(const prog_options *o)
 {
   char path[80];
@@ -49,10 +69,11 @@ int sph_prog_new(const prog_options *o)
     return fputs(t->text, stdout) < 0 ? PROG_FAILED : PROG_OK;
   snprintf(path, sizeof path, "%s.yml", t->name);
   const char *name = o->output ? o->output : path;
-  int status = write_file(name, t->text, o->force);
+  int status = write_surfaces(t, name, o->force);
+  if (!status) status = write_file(name, t->text, o->force);
   if (status || o->quiet) return status;
-  printf("%s is written; now\n  sphode check %s\n  sphode run %s\nOther templates:\n", name, name,
-         name);
+  printf("%s is written%s%s; now\n  sphode check %s\n  sphode run %s\nOther templates:\n", name,
+         is_surface(t + 1) ? ", beside it " : "", is_surface(t + 1) ? t[1].name : "", name, name);
   list(stdout);
   return PROG_OK;
 }

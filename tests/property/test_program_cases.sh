@@ -31,6 +31,13 @@ for t in tank piston channel gas; do
     grep -q "^the case  *right, 0 warnings" out || { good=1; sed 's/^/# /' out; }
 done
 ok $good "each template is written and right as it is, without a warning"
+mkdir elsewhere
+run 0 "$sphode" new piston-hill-3d -o elsewhere/two.yml && grep -q "elsewhere/two.yml is written, beside it hill.stl" out && cmp elsewhere/two.yml "$SRCDIR/cases/piston-hill-3d.yml" &&
+  cmp elsewhere/hill.stl "$SRCDIR/cases/hill.stl" && [[ ! -e hill.stl ]] && run 0 "$sphode" check elsewhere/two.yml && grep -q "^the case  *right, 0 warnings" out
+ok $? "one that has a surface has it beside it"
+run 1 "$sphode" new piston-hill-3d -o elsewhere/three.yml && grep -q "hill.stl is there already" err && [[ ! -e elsewhere/three.yml ]] &&
+  run 2 "$sphode" new hill.stl && ! grep -q "^  hill" err
+ok $? "it is kept where it is there, and no template itself"
 cp tank.yml before
 run 1 "$sphode" new && grep -q "tank.yml is there already" err && cmp tank.yml before
 ok $? "a file that is there is kept"
