@@ -93,9 +93,14 @@ static const command commands[] = {
      "      --spacing DX       kernels only: h, support, neighbors, error of each at that spacing "
      "[m]\n"
      "      --dim N            in 1, 2 or 3 dimensions (default: 2 and 3)\n"},
-    {"plot", "DIR", "Fn", sph_prog_plot, "draw a run again",
+    {"plot", "DIR", "Fnade", sph_prog_plot,
+     "draw a run again: its snapshots and comparisons, or curves of its tables",
      "      --field NAME       colour: velocity, pressure, density, energy, velocity_x, ...\n"
-     "      --frames N         snapshots on the sheet\n"},
+     "      --frames N         snapshots on the sheet\n"
+     "      --series LIST      instead columns of series.csv over time, as front,kinetic, to\n"
+     "                         DIR/series.png\n"
+     "      --table FILE       of another table in DIR, as probe_line.csv, to DIR/probe_line.png\n"
+     "      --over COLUMN      over this column instead of the first, as points\n"},
     {"movie", "DIR", "oFEBAq", sph_prog_movie,
      "draw all snapshots of a run, as an mp4 or animated PNG",
      "      --field NAME       colour: velocity, pressure, density, energy, velocity_x, ...\n"
@@ -186,6 +191,9 @@ static const struct option options[] = {
     {"dim", required_argument, NULL, 'D'},
     {"field", required_argument, NULL, 'F'},
     {"frames", required_argument, NULL, 'n'},
+    {"series", required_argument, NULL, 'a'},
+    {"table", required_argument, NULL, 'd'},
+    {"over", required_argument, NULL, 'e'},
     {"range", required_argument, NULL, 'E'},
     {"size", required_argument, NULL, 'B'},
     {"rate", required_argument, NULL, 'A'},
@@ -294,6 +302,9 @@ static int take(prog_options *o, int letter, const char *value)
   case 'P': o->spacing = value; break;
   case 'D': return number("dim", value, 3, &o->dim);
   case 'F': o->field = value; break;
+  case 'a': o->series = value; break;
+  case 'd': o->table = value; break;
+  case 'e': o->over = value; break;
   case 'E': o->range = value; break;
   case 'B': o->size = value; break;
   case 'A': return number("rate", value, PROG_RATE, &o->rate);

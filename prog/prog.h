@@ -30,6 +30,8 @@ typedef struct prog_options {
   int dim;             /* 0: 2 and 3 */
   const char *field;   /* NULL: that of the case */
   int frames;          /* 0: that of the case */
+  /* Curves instead: columns, the table in DIR (NULL: series.csv), what over (NULL: the first). */
+  const char *series, *table, *over;
   /* movie: NULL, 0: the defaults */
   const char *range, *size;
   int rate;

@@ -1,8 +1,11 @@
 /* Pictures. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "prog.h"
+
+enum { CURVES = 8, COMPARISONS = 64 };
 
 static int report(int status, const char *png, const sph_error *error)
 {
@@ -41,11 +44,49 @@ static sph_case *case_of(const char *directory)
   return sph_case_read(path, 0, NULL, &none);
 }
 
+/* Columns of a table of the run over another one. */
+static int curves(const prog_options *o)
+{
+  char csv[4096], png[4096], columns[1000], *rest = NULL;
+  const char *table = o->table ? o->table : "series.csv", *end = strrchr(table, '.');
+  sph_plot_curve curve[CURVES];
+  sph_error error = {0};
+  int n = 0;
+  if (!o->series)
+    return sph_prog_error(PROG_USAGE, "plot: --table and --over want --series COLUMN,...");
+  snprintf(csv, sizeof csv, "%s/%s", o->what, table);
+  snprintf(png, sizeof png, "%s/%.*s.png", o->what, (int)(end ? end - table : (long)strlen(table)),
+           table);
+  if (strlen(o->series) >= sizeof columns)
+    return sph_prog_error(PROG_USAGE, "plot: --series of more than %zu bytes", sizeof columns - 1);
+  strcpy(columns, o->series);
+  for (char *word = strtok_r(columns, ",", &rest); word; word = strtok_r(NULL, ",", &rest)) {
+    if (n == CURVES)
+      return sph_prog_error(PROG_USAGE, "plot: --series of more than %d columns", CURVES);
+    curve[n++] = (sph_plot_curve){.csv = csv, .x = o->over, .y = word, .points = o->over != NULL};
+  }
+  int status =
+      sph_plot_series(curve, n, &(sph_plot_def){.y_label = n > 1 ? "" : NULL}, png, &error);
+  return report(status, png, &error) ? PROG_FAILED : PROG_OK;
+}
+
+/* Again, from the tables that the run left; it may have been stopped before it compared. */
+static void comparisons(const sph_case *c, const char *directory)
+{
+  for (int k = 0; k < COMPARISONS; k++) {
+    char png[4096];
+    if (!sph_case_compare_plot(c, k, directory, png, sizeof png, NULL))
+      printf("picture      %s\n", png);
+  }
+}
+
 int sph_prog_plot(const prog_options *o)
 {
+  if (o->series || o->table || o->over) return curves(o);
   sph_case *c = case_of(o->what);
   const char *field = o->field ? o->field : c ? sph_case_plot_field(c) : NULL;
   int status = frames(o->what, field, o->frames ? o->frames : c ? sph_case_plot_frames(c) : 4);
+  if (c && status == SPH_OK) comparisons(c, o->what);
   sph_case_free(c);
   return status == SPH_OK ? PROG_OK : PROG_FAILED;
 }

@@ -156,8 +156,16 @@ ok $? "the case that was kept can be read again, with the tables that were"
 if command -v gnuplot >/dev/null; then
   [[ -s d1/frames.png && -s d1/compare_0.png ]] && run 0 "$sphode" plot d1 --field pressure --frames 2 && grep -q "d1/frames.png" out
   ok $? "its pictures"
+  rm d1/compare_0.png
+  run 0 "$sphode" plot d1 && grep -q "d1/compare_0.png" out && [[ -s d1/compare_0.png ]]
+  ok $? "comparisons again"
+  run 0 "$sphode" plot d1 --series kinetic,potential && grep -q "d1/series.png" out && [[ -s d1/series.png ]] &&
+    grep -q "potential" d1/series.gp && run 0 "$sphode" plot d1 --series kinetic --over potential &&
+    run 1 "$sphode" plot d1 --series kinetik && grep -q 'no column "kinetik" among time' err &&
+    run 2 "$sphode" plot d1 --over time && grep -q "want --series" err
+  ok $? "curves of a table"
 else
-  ok 0 "its pictures # SKIP no gnuplot"
+  for what in "its pictures" "comparisons again" "curves of a table"; do ok 0 "$what # SKIP no gnuplot"; done
 fi
 before=$(cksum d1/* | cksum)
 fails "a run that ended is not written over" "d1 holds a run that ended or was stopped" run "$dam" "${small[@]}" -o d1
