@@ -28,7 +28,7 @@ static const command commands[] = {
      "                         parameters.H=0.3m, groups.water.density=900; repeatable\n"
      "  -t, --threads N        results do not depend on it\n"
      "  -f, --force            write over a run that ended, or one that can go on\n"
-     "  -q, --quiet            no progress, no summary, no pictures\n"
+     "  -q, --quiet            no progress, no summary, no pictures, no warnings\n"
      "      --lenient          exit status 0, not 3, where a comparison misses its bar\n"
      "      --live[=PORT]      a page in the browser, at the address that is told: particles,\n"
      "                         series, pause, stop\n"

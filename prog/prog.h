@@ -81,6 +81,9 @@ int sph_prog_advice(const prog_options *o);
 /* "sphode: ..." on stderr; returns status. */
 int sph_prog_error(int status, const char *format, ...) SPH_PRINTF(2, 3);
 
+/* Warning k of a case and of its simulation, evaluated; 0: there is none. */
+int sph_prog_warning(const sph_case *c, const sph_sim *sim, int k, char *text, size_t size);
+
 /* Makes a directory ready for a run and holds it (nobody else writes there); a file descriptor, or
  * -1, told.  A run that ended stays unless force, and so does one that can go on from a
  * checkpoint. */

@@ -28,13 +28,20 @@ static void print_groups(const sph_sim *sim)
          sph_sim_dx(sim), sph_sim_h(sim), sph_sim_h(sim) / sph_sim_dx(sim), sph_sim_kernel(sim));
 }
 
+int sph_prog_warning(const sph_case *c, const sph_sim *sim, int k, char *text, size_t size)
+{
+  int of_sim = 0;
+  if (sph_sim_warning(sim, k, text, size)) return 1;
+  while (of_sim < k && sph_sim_warning(sim, of_sim, NULL, 0)) of_sim++;
+  return sph_case_warning(c, k - of_sim, text, size);
+}
+
 static int warnings(const sph_case *c, const sph_sim *sim)
 {
   char text[400];
-  int n = 0, m = 0;
-  for (; sph_sim_warning(sim, n, text, sizeof text); n++) printf("warning      %s\n", text);
-  for (; sph_case_warning(c, m, text, sizeof text); m++) printf("warning      %s\n", text);
-  return n + m;
+  int n = 0;
+  for (; sph_prog_warning(c, sim, n, text, sizeof text); n++) printf("warning      %s\n", text);
+  return n;
 }
 
 static void print_events(const sph_case *c)

@@ -77,6 +77,14 @@ int sph_prog_run_outputs(prog_job *j)
   return write_case(j);
 }
 
+/* What sphode check would say. */
+static void warn(const prog_job *j)
+{
+  char text[400];
+  for (int k = 0; !j->o->quiet && sph_prog_warning(j->c, j->sim, k, text, sizeof text); k++)
+    sph_prog_error(PROG_OK, "warning: %s", text);
+}
+
 static int prepare(prog_job *j)
 {
   sph_error error = {0};
@@ -87,7 +95,9 @@ static int prepare(prog_job *j)
   j->end = sph_case_end(j->c);
   name_directory(j);
   j->held = sph_prog_directory_take(j->directory, j->o->force);
-  return j->held < 0 ? PROG_FAILED : sph_prog_run_outputs(j);
+  if (j->held < 0) return PROG_FAILED;
+  warn(j);
+  return sph_prog_run_outputs(j);
 }
 
 /* A run that failed or was stopped: where does it go on? */

@@ -142,14 +142,15 @@ static int check_advection(sph_sim *sim, const sph_group *group, const sph_group
   const char *name = bits & SPH_SHIFTING ? "shifting" : "transport-velocity";
   if (!(bits & SPH_SHIFTS)) return SPH_OK;
   if (!sph_sim_interaction_same_fluid(group, first))
-    return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
-                        "%s: density would follow across from %s to %s, which differ in reference "
-                        "density or sound speed; right is advection = 0",
-                        name, first->name, group->name);
+    return sph_sim_fail(
+        sim, SPH_ERR_ARGUMENT,
+        "%s: density would follow across from %s to %s, which differ in reference "
+        "density or sound speed; right is advection = 0 (in a case: advection: false)",
+        name, first->name, group->name);
   if (sph_group_data_energy(group) >= 0 || sim->terms.scalars)
     return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                         "%s: density and velocity follow the particles of %s, but not its %s; "
-                        "right is advection = 0",
+                        "right is advection = 0 (in a case: advection: false)",
                         name, group->name,
                         sim->terms.scalars ? sim->terms.scalar[0].name : sph_group_energy(group));
   return SPH_OK;
@@ -161,7 +162,8 @@ static int check_shift(sph_sim *sim, const sph_group *group, const sph_group *fi
   if ((sim->terms.bits & SPH_TRANSPORT) && !(group->eos.c0 > 0 && group->eos.rho0 > 0))
     return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                         "transport-velocity: equation of state %s of %s has no reference density "
-                        "and sound speed (rho0 = %g, c0 = %g)",
+                        "and sound speed (rho0 = %g, c0 = %g); right is a liquid, or shifting with "
+                        "advection = 0 (in a case: advection: false)",
                         group->eos.name, group->name, group->eos.rho0, group->eos.c0);
   return shift->advection ? check_advection(sim, group, first) : SPH_OK;
 }
@@ -553,7 +555,7 @@ int sph_sim_prepare(sph_sim *sim)
   if (!status && (sim->loop_terms & SPH_TRANSPORT) && sim->surface > 0)
     status = sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                           "transport-velocity: %ld particles start at a free surface, which would "
-                          "spread; right is shifting with surface = 1",
+                          "spread; right is shifting with surface = 1 (in a case: surface: true)",
                           sim->surface);
   if (!status) status = make_rates_anew(sim);
   if (!status) sph_sim_weights_scales(sim);

@@ -97,8 +97,8 @@ static void find_in_surface(sph_finder *f, const sph_sim *sim)
   if (sim->prepared && sim->surface > 0 && !sim->terms.shift.surface)
     sph_sim_warning_found(
         f,
-        "%ld particles are at a free surface, which shifting with surface = 0 does not know: "
-        "it would spread",
+        "%ld particles are at a free surface, which shifting with surface = 0 (in a case: "
+        "surface: false) does not know: it would spread",
         sim->surface);
 }
 

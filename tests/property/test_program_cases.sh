@@ -122,6 +122,12 @@ warns "series: 2 s is longer than the run of 1 s" "output.series=2 s"
 warns "interval: 2 s is longer than the run of 1 s" "output.probes={a: {at: [0, 0], interval: 2 s}}"
 warns "interval: 3 s is longer than the run of 1 s" "checkpoint.interval=3 s"
 ok $good "events that never happen, periods longer than the run"
+run 0 "$sphode" run tank2.yml --set "run.end=1 ms" --set "groups.water.viscosity=1 mPa s" -o warned && cp err said
+run 0 "$sphode" check tank2.yml --set "run.end=1 ms" --set "groups.water.viscosity=1 mPa s"
+sed -n 's/^warning  */sphode: warning: /p' out >wanted
+grep -q "viscosity: does nothing without" wanted && diff wanted <(grep "^sphode: warning: " said) >/dev/null &&
+  run 0 "$sphode" run tank2.yml --set "run.end=1 ms" --set "groups.water.viscosity=1 mPa s" -o warned -f -q && [[ ! -s err ]]
+ok $? "a run says the warnings of a check, but not with --quiet"
 event='events={fill: {when: {front: {at: 4*H}}, snapshot: true, once: true}, turn: {when: {time: 0.5 s}, stop: true, change: {gravity: [0, -1], delta: 0.2, walls: {tank: {velocity: [1, 0]}}}}}'
 run 0 "$sphode" check tank2.yml --set "$event" --set 'groups.tank.boundary={motion: {velocity: [0, 0]}}' && grep -q "right, 0 warnings" out &&
   grep -q "^event        fill: the front of all fluids passes x = 1.2 m, once: snapshot$" out &&

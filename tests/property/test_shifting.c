@@ -732,7 +732,16 @@ static void refusals(void **state)
   with(sim, sph_term_transport_velocity(0, 0), "moved by shifting already");
   sim = liquid(1);
   sph_group_set_energy(sph_sim_group(sim, "water"), "u");
-  with(sim, sph_term_shifting(NULL, 1), "follow the particles of water, but not its u");
+  with(
+      sim, sph_term_shifting(NULL, 1),
+      "follow the particles of water, but not its u; right is advection = 0 (in a case: advection: "
+      "false)");
+  sim = liquid(1);
+  sph_group_set_eos(sph_sim_group(sim, "water"), sph_eos_ideal_gas(1.4));
+  double *u = sph_group_write(sph_sim_group(sim, "water"), "energy", 0);
+  for (long i = 0; i < sph_group_count(sph_sim_group(sim, "water")); i++) u[i] = 1;
+  with(sim, sph_term_transport_velocity(1, 1),
+       "right is a liquid, or shifting with advection = 0 (in a case: advection: false)");
   if (built("sprk:leapfrog-2-2")) {
     sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 0.1, .periodic = {1, 1}, .length = {1, 1}});
     sph_group *water = sph_group_box(sim, "water", (double[]){0, 0}, (double[]){1, 1}, 1000);
