@@ -16,6 +16,7 @@
 #include <math.h>
 
 #include "csv.h"
+#include "long.h"
 #include "memory.h"
 #include "sphode.h"
 
@@ -154,7 +155,7 @@ static void coarse(void **state)
 static void fine(void **state)
 {
   (void)state;
-  if (!getenv("SPHODE_TEST_LONG")) return;
+  if (test_is_short()) return;
   assert_true(distance(50, 100, 16) <= 0.01);
   assert_true(distance(50, 400, 36) <= 0.03);
 }

@@ -20,6 +20,7 @@
 #include <math.h>
 
 #include "exact.h"
+#include "long.h"
 #include "sphode.h"
 
 static const double H = 1, g = 1, rho0 = 1000; /* [m], [m/s^2], [kg/m^3] */
@@ -108,7 +109,7 @@ static void resets(void **state)
 {
   (void)state;
   double motion;
-  if (!getenv("SPHODE_TEST_LONG")) return;
+  if (test_is_short()) return;
   const double mls = rest((setup){"antuono", "mls", .until = 40}, &motion);
   const double shepard = rest((setup){"antuono", "shepard", .until = 40}, &motion);
   assert_true(mls <= 0.004 && shepard <= 0.004);

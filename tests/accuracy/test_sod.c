@@ -66,8 +66,8 @@ static void plateau(const sph_group *gas, const char *field, double from, double
   for (long i = 0; i < sph_group_count(gas); i++)
     if (x[i] > from * t_end && x[i] < to * t_end) sum += f[i], n++;
   double error = fabs(sum / (double)n / right - 1);
-  print_message("# %s between %.2f and %.2f: %.5f, exact %.5f (%ld particles)\n", field, from, to,
-                sum / (double)n, right, n);
+  print_message("# %s between %.2f and %.2f: %.5f, exact %.5f, %.2f %% off (%ld particles)\n",
+                field, from, to, sum / (double)n, right, 100 * error, n);
   assert_true(n > 5 && error <= bar);
 }
 

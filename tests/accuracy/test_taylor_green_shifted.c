@@ -21,6 +21,7 @@
 #include <math.h>
 
 #include "exact.h"
+#include "long.h"
 #include "sphode.h"
 
 static const double L = 1, U = 1, nu = 0.01, rho0 = 1000; /* [m], [m/s], [m^2/s], [kg/m^3] */
@@ -147,7 +148,7 @@ static void transport_velocity(void **state)
 static void others(void **state)
 {
   (void)state;
-  if (!getenv("SPHODE_TEST_LONG")) return;
+  if (test_is_short()) return;
   sph_term between = shifting("delta-plus"), alone = between;
   between.steps = 1;
   alone.advection = 0;

@@ -10,11 +10,23 @@ typedef struct balance {
 
 static inline void add(balance *b, real x) { b->sum += x, b->size += fabsl(x); }
 
+static double balance_largest; /* sum of its size that assert_zero was given with 1e-14 */
+
 static inline void assert_zero(const balance *b, double tolerance, const char *what)
 {
   assert_true(b->size > 0); /* something was there to cancel */
+  if (tolerance <= 1e-14)
+    balance_largest = fmax(balance_largest, (double)(fabsl(b->sum) / b->size));
   if (fabsl(b->sum) <= tolerance * b->size) return;
   fail_msg("%s: %Lg of %Lg", what, b->sum, b->size);
+}
+
+/* At the end of a program. */
+static inline int balance_tell(void **state)
+{
+  (void)state;
+  print_message("# sums that must vanish: %.2g of their size\n", balance_largest);
+  return 0;
 }
 
 static inline real power_of(const scene *s, const scene_rates *r, long i)

@@ -263,6 +263,7 @@ static void each_integrator(void **state)
     v.events = 1;
     one_integrator(&v, end_of(&v), info.name);
   }
+  print_message("# %d of the integrators: the same bits\n", count);
   assert_in_range(count * every, 30, 200);
 }
 
@@ -326,7 +327,7 @@ static void relaxed(void **state)
     memory m;
     sph_sim *sim = make(&v, 1, NULL, &m);
     int unbuilt = sph_sim_status(sim) == SPH_ERR_UNBUILT;
-    if (unbuilt) print_message("# %s\n", sph_sim_error(sim));
+    if (unbuilt) print_message("# not run: %s\n", sph_sim_error(sim));
     sph_sim_free(sim);
     if (unbuilt) return;
     char directory[300], path[400];

@@ -462,5 +462,5 @@ int main(void)
       cmocka_unit_test(galilean),
       cmocka_unit_test(signs),
   };
-  return cmocka_run_group_tests_name("conservation", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("conservation", tests, NULL, balance_tell);
 }

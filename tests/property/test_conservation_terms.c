@@ -499,5 +499,5 @@ int main(void)
       cmocka_unit_test(columns),         cmocka_unit_test(rigid_rotation),
       cmocka_unit_test(galilean),
   };
-  return cmocka_run_group_tests_name("conservation of all terms", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("conservation of all terms", tests, NULL, balance_tell);
 }

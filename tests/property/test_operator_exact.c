@@ -105,6 +105,25 @@ static void constants(void **state)
   }
 }
 
+/* Errors where 1e-11 is asked, and where less is: the Laplacian of a line, Fatehi & Manzari's in
+ * corners of 3D. */
+static double largest, largest_else;
+
+#define assert_exact(found, right, tolerance)                    \
+  do {                                                           \
+    double *of = (tolerance) > 1e-11 ? &largest_else : &largest; \
+    *of = fmax(*of, fabs((found) - (right)));                    \
+    assert_near(found, right, tolerance);                        \
+  } while (0)
+
+static int tell(void **state)
+{
+  (void)state;
+  print_message("# lines and parabolas: error %.2g; where less is asked %.2g\n", largest,
+                largest_else);
+  return 0;
+}
+
 static void linear(void **state)
 {
   (void)state;
@@ -112,19 +131,19 @@ static void linear(void **state)
   {
     assert_int_equal(sph_operator_gradient(s.op, "corrected", s.field[1], s.out, NULL), 0);
     for (int d = 0; d < dim; d++)
-      for (long i = 0; i < s.c.n; i++) assert_near(s.out[d][i], s.b[d], 1e-11);
+      for (long i = 0; i < s.c.n; i++) assert_exact(s.out[d][i], s.b[d], 1e-11);
     for (int cspm = 0; cspm < 2; cspm++) {
       if (cspm)
         assert_int_equal(sph_operator_cspm(s.op, s.field[1], s.out[3], s.out, NULL), 0);
       else
         assert_int_equal(sph_operator_mls(s.op, 1, s.field[1], s.out[3], s.out, NULL, NULL), 0);
-      for (long i = 0; i < s.c.n; i++) assert_near(s.out[3][i], s.field[1][i], 1e-11);
+      for (long i = 0; i < s.c.n; i++) assert_exact(s.out[3][i], s.field[1][i], 1e-11);
       for (int d = 0; d < dim; d++)
-        for (long i = 0; i < s.c.n; i++) assert_near(s.out[d][i], s.b[d], 1e-11);
+        for (long i = 0; i < s.c.n; i++) assert_exact(s.out[d][i], s.b[d], 1e-11);
     }
     assert_int_equal(sph_operator_laplacian(s.op, "corrected", NULL, s.field[1], s.out[0], NULL),
                      0);
-    for (long i = 0; i < s.c.n; i++) assert_near(s.out[0][i], 0, 1e-10); /* times 1/dx */
+    for (long i = 0; i < s.c.n; i++) assert_exact(s.out[0][i], 0, 1e-10); /* times 1/dx */
   }
 }
 
@@ -148,15 +167,15 @@ static void quadratic(void **state)
                                             NULL),
                      0);
     for (long i = 0; i < s.c.n; i++)
-      assert_near(s.out[0][i], trace(&s), dim == 3 && !inside(&s, i) ? 1e-9 : 1e-11);
+      assert_exact(s.out[0][i], trace(&s), dim == 3 && !inside(&s, i) ? 1e-9 : 1e-11);
     assert_int_equal(sph_operator_mls(s.op, 2, s.field[2], s.out[6], NULL, s.out, NULL), 0);
-    for (long i = 0; i < s.c.n; i++) assert_near(s.out[6][i], s.field[2][i], 1e-11);
+    for (long i = 0; i < s.c.n; i++) assert_exact(s.out[6][i], s.field[2][i], 1e-11);
     for (int a = 0; a < dim; a++)
       for (int b = a; b < dim; b++, k++)
-        for (long i = 0; i < s.c.n; i++) assert_near(s.out[k][i], s.H[a][b], 1e-11);
+        for (long i = 0; i < s.c.n; i++) assert_exact(s.out[k][i], s.H[a][b], 1e-11);
     assert_int_equal(sph_operator_mls(s.op, 2, s.field[2], NULL, s.out, NULL, NULL), 0);
     for (int d = 0; d < dim; d++)
-      for (long i = 0; i < s.c.n; i++) assert_near(s.out[d][i], slope(&s, d, i), 1e-11);
+      for (long i = 0; i < s.c.n; i++) assert_exact(s.out[d][i], slope(&s, d, i), 1e-11);
   }
 }
 
@@ -177,16 +196,16 @@ static void vectors(void **state)
     assert_int_equal(sph_operator_gradient_vector(s.op, "corrected", field, s.out, NULL), 0);
     for (int a = 0; a < dim; a++)
       for (int b = 0; b < dim; b++)
-        for (long i = 0; i < s.c.n; i++) assert_near(s.out[a * dim + b][i], A[a][b], 1e-11);
+        for (long i = 0; i < s.c.n; i++) assert_exact(s.out[a * dim + b][i], A[a][b], 1e-11);
     assert_int_equal(sph_operator_divergence(s.op, "corrected", field, s.out[0], NULL), 0);
     const double divergence = A[0][0] + (dim > 1 ? A[1][1] : 0) + (dim > 2 ? A[2][2] : 0);
-    for (long i = 0; i < s.c.n; i++) assert_near(s.out[0][i], divergence, 1e-11);
+    for (long i = 0; i < s.c.n; i++) assert_exact(s.out[0][i], divergence, 1e-11);
     if (dim > 1) {
       assert_int_equal(sph_operator_curl(s.op, "corrected", field, s.out, NULL), 0);
       const double curl[] = {A[2][1] - A[1][2], A[0][2] - A[2][0], A[1][0] - A[0][1]};
       for (long i = 0; i < s.c.n; i++)
         for (int a = dim == 2 ? 2 : 0; a < 3; a++)
-          assert_near(s.out[dim == 2 ? 0 : a][i], curl[a], 1e-11);
+          assert_exact(s.out[dim == 2 ? 0 : a][i], curl[a], 1e-11);
     }
     for (int a = 0; a < 3; a++) free(u[a]);
   }
@@ -475,5 +494,5 @@ int main(void)
                                      cmocka_unit_test(spreads_no_further),
                                      cmocka_unit_test(singular),
                                      cmocka_unit_test(hostile)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, NULL, tell);
 }
