@@ -4,30 +4,53 @@
 group "Operators and right-hand side"
 
 page kernels "tests: Kernels" kernels
-tests unit/test_kernel "every kernel in every dimension: table; integral; derivative" "table; quadrature, differentiation (GSL)" "1e-12; 1e-10; 1e-8"
+tests unit/test_kernel "every kernel in every dimension: W, dW/dr, Laplacian" "table of 50 digits" "≤ 1e-12" 'table.*: error \([0-9.e-]*\)'
+tests unit/test_kernel "integrals of W" "quadrature (GSL)" "≤ 1e-10" 'integrals: error \([0-9.e-]*\)'
+tests unit/test_kernel "dW/dr, dW/dh, Laplacian, of W(0)/h and W(0)/h^2" "differentiation (GSL)" "≤ 1e-8" 'derivatives: error \([0-9.e-]*\)'
 
 page operators "tests: Operators: what they reproduce exactly, and their orders" operators
-tests property/test_operator_exact "constants, lines, parabolas on jittered points" "polynomials" "1e-11 of the sum of absolute values"
-tests accuracy/test_operator_orders "orders on lattices and jittered points" "analysis" "± 0.15 of the order expected"
+because corners "B's matrix is nearly singular in corners of 3D and loses two digits; a Laplacian is larger by 1/dx"
+tests property/test_operator_exact "lines and parabolas on jittered points; absolute, of fields and slopes of order 1" "polynomials" "≤ 1e-11" \
+  'lines and parabolas: error \([0-9.e-]*\);'
+tests property/test_operator_exact "the corrected Laplacian of lines; Fatehi and Manzari's near faces, edges and corners of 3D" "polynomials" "≤ 1e-11" \
+  '.*where less is asked \([0-9.e-]*\)'
+SPHODE_TEST_LONG=1 tests accuracy/test_operator_orders "orders on lattices and jittered points, 2D: farthest from right, of those that have one" \
+  "analysis" "≤ 0.15" '2D: [0-9]* orders within \([0-9.]*\)' "64 to 128 across"
+SPHODE_TEST_LONG=1 tests accuracy/test_operator_orders "the same, 3D" "analysis" "≤ 0.2" '3D: [0-9]* orders within \([0-9.]*\)' "20 to 40 across"
+say "Some orders are bounded from below alone, since part of the error still falls faster, and those of plain sums on a lattice at fixed h/dx are only told: there an error" \
+  "that h/dx alone decides is mixed with one of h^2. How many, the printout says."
 
 page conservation "tests: What the right-hand side keeps" right-hand-side
-tests property/test_conservation "momentum, angular momentum, energy of every pair term; heating; entropy" "conservation laws" "1e-13; signs exact"
-tests property/test_conservation_terms "the same of the other fluid terms" "conservation laws" "1e-13; signs exact"
-tests property/test_rhs "right-hand side, random states" "brute force in long double" "1e-14 of the sum of absolute values"
+tests property/test_conservation "momentum, angular momentum, energy of every pair term, of the sum of absolute values" "conservation laws" "≤ 1e-13" \
+  'sums that must vanish: \([0-9.e-]*\)'
+tests property/test_conservation "heating and entropy of each particle, and what else that program asserts" "signs" "exact"
+tests property/test_conservation_terms "momentum, angular momentum, energy of the other fluid terms" "conservation laws" "≤ 1e-13" \
+  'sums that must vanish: \([0-9.e-]*\)'
+tests property/test_conservation_terms "heating and entropy of each particle, and what else that program asserts" "signs" "exact"
+tests property/test_rhs "right-hand side, random states, of the sum of absolute values" "brute force in long double" "≤ 1e-14" 'largest error: \([0-9.e-]*\)'
 
 page viscosity "tests: Effective viscosity on a lattice" terms
 tests accuracy/test_viscosity "Morris in 2D, effective over nominal viscosity" "shear flow" "within 0.5 %" \
   '2D, 100 across, h = 1.5 dx: Morris \([0-9.]*\)' "100 across, h = 1.5 dx"
 
 page lattice-sound "tests: Sound on a lattice" exact-solutions
-tests accuracy/test_acoustics "frequency of lattice waves, all kernels" "discrete dispersion relation" "1e-9"
+tests accuracy/test_acoustics "frequency of lattice waves, all kernels" "discrete dispersion relation" "≤ 1e-9" 'all waves: error \([0-9.e-]*\)'
 
 page jacobians "tests: Jacobians and tangents" derivatives
-tests property/test_jacobian "sparse Jacobian" "central differences" "1e-6"
-tests property/test_tangent "tangents of f" "central differences" "1e-6"
+because conductivity "sqrt(abs(p_i - p_j)) has no slope where two pressures are equal, and near there differences are off, not the tangent; the test asserts 1e-5"
+tests property/test_jacobian "sparse Jacobian: entries, of the largest in their column" "central differences" "≤ 1e-6" 'entries: \([0-9.e-]*\)'
+tests property/test_jacobian "sparse Jacobian times a vector" "tangents" "≤ 1e-12" '.*products, error \([0-9.e-]*\)'
+tests property/test_tangent "tangents of f along states" "central differences" "≤ 1e-6" 'largest error: \([0-9.e-]*\)'
+tests property/test_tangent "tangents of f along parameters" "central differences" "≤ 1e-6" '[0-9]* parameters: error \([0-9.e-]*\)'
+tests property/test_tangent "tangents of f along parameters, with artificial conductivity" "central differences" "≤ 1e-6" \
+  '[0-9]* parameters: error [0-9.e-]*, \([0-9.e-]*\) with'
 
 page riemann "tests: The exact Riemann solver" exact-solutions
-tests unit/test_exact "star values of Sod's and of Toro's tests" "published values" "1e-9"
+tests unit/test_exact "star values of Toro's tests, of one unit of the last digit printed; of Sod's, of 1e-10" "Toro (2009), tables 4.1 to 4.3" "≤ 1" \
+  'star values: error \([0-9.e-]*\)'
+tests unit/test_exact "jumps of shocks, invariants and entropy of rarefactions, of the same tests" "conservation laws" "≤ 1e-12" \
+  'shocks and rarefactions: error \([0-9.e-]*\)'
+say "Toro's tables have five to six digits, so that 1e-9 can be asked of Sod's values alone; the jump conditions tell of all. The program tests the other exact solutions, too."
 
 group "Incompressible and free-surface flow"
 
@@ -37,7 +60,13 @@ judge 50
 picture 50 compare_0 "velocities of all particles and the series at five times"
 runs "h/dx = 2" parameters.n "25 50 100" --set kernel.h_over_dx=2
 judge 50
-tests accuracy/test_channel "Couette and Poiseuille: orders at early times, and with h/dx growing" "exact series" "≥ 1; ≥ 1.5 in h"
+because '0.1125 and after' "the error, at most 0.04 %, is at its floor"
+tests accuracy/test_channel "Couette and Poiseuille: the least order at t <= 0.045" "exact series" "≥ 1" \
+  '.*t = 0.0[0-9]*: order \([0-9.]*\) between' "h/dx = 1.5, 25 to 50 across"
+tests accuracy/test_channel "the least order in h: Couette at t <= 0.045, Poiseuille at all times" "exact series" "≥ 1.5" \
+  '.*order in h \([0-9.-]*\) (bar' "h/dx = 1.5 to 3, 25 to 100 across"
+tests accuracy/test_channel "the least order in h: Couette at t = 0.1125 and after" "exact series" "≥ 1.5" \
+  'Couette, t = 0\.[1-9][0-9]*, from.*order in h \([0-9.-]*\)' "h/dx = 1.5 to 3, 25 to 100 across"
 
 page poiseuille poiseuille-2d terms
 runs "h/dx = 1.5" parameters.n "25 50 100"
@@ -87,15 +116,33 @@ runs "Re = 100, gradients not corrected" parameters.n "25 50" \
   --set terms.continuity.correction=none --set terms.pressure.correction=none --set terms.viscosity-laminar.correction=none
 
 page hydrostatic hydrostatic-tank-2d walls
+because 'one H wide' "this diffusion takes the column of the reference density for that of the liquid, off by g H/c0^2, and drifts; less in a wider tank, or with walls that may pull"
 runs "Diffusion of Antuono, H/dx = 20" run.end "10*T 60*T 120*T"
 judge 120*T '^pressure'
-judge 60*T '^kinetic'
+picture 120*T compare_0 "pressures of all particles over the exact column at the end"
+between "kinetic energy, t sqrt(g/H) = 39 to 40" 60*T kinetic mean 12.4517 12.7711 9810 1e-6
+between "kinetic energy, t sqrt(g/H) = 41 to 50" 60*T kinetic mean 13.0902 15.9638 9810 –
+between "kinetic energy, t sqrt(g/H) = 41 to 60" 60*T kinetic max 13.0902 19.157 9810 –
+between "kinetic energy, t sqrt(g/H) = 119 to 120" 120*T kinetic mean 37.9937 38.314 9810 –
+say "Kinetic energy is that over rho g H^3, the potential energy of the water. The case asks it of t sqrt(g/H) = 39 to 40, whenever the run ends; later" \
+  "the tank sloshes once more, above that bar, and comes to rest."
 curves kinetic "Kinetic energy, diffusion of Antuono" 'column("time [s]")*sqrt(9.81)' 'column("kinetic [J/m]")/(1000*9.81)' \
   'set logscale y' 'set format y "10^{%L}"' 'set yrange [1e-9:]' 'set xlabel "t sqrt(g/H)"' 'set ylabel "kinetic energy/(rho g H^3)"'
 runs "Diffusion of Fourtakas, walls that may pull" run.end "10*T 60*T 120*T" --set terms.delta.model=fourtakas --set groups.tank.boundary.tension=true
 judge 120*T '^pressure'
+between "kinetic energy, t sqrt(g/H) = 39 to 40" 60*T kinetic mean 12.4517 12.7711 9810 1e-6
 runs "Diffusion of Molteni: its drift" run.end "10*T 60*T" --set terms.delta.model=molteni
-runs "Dynamic boundary particles (dbc): their drift" run.end "10*T 60*T" --set groups.tank.boundary.model=dbc
+runs "Dynamic boundary particles (dbc): a start out of balance, and what is left of it" run.end "10*T 60*T" --set groups.tank.boundary.model=dbc
+say "In a case file dbc walls start at their reference density, so that the water falls on them: that is what stands under 10. From the column, which in C their" \
+  "densities can be given, they are 0.7 % off at 10, 4.1 % at 40 and 1.5 % at 120 ([walls.md](../walls.md#at-rest)): a drift."
+runs "Diffusion of Fourtakas, walls as they are by default" run.end "120*T" --set terms.delta.model=fourtakas
+judge 120*T '^pressure'
+between "kinetic energy, t sqrt(g/H) = 39 to 40" 120*T kinetic mean 12.4517 12.7711 9810 1e-6
+runs "Diffusion of Fourtakas, walls as they are by default, a tank one H wide" run.end "120*T" --set terms.delta.model=fourtakas \
+  --set "groups.water.shapes=[{box: {lower: [0, 0], upper: [H, H]}}]" \
+  --set "groups.tank.shapes=[{layers: {lower: [0, 0], upper: [H, 1.5*H], open: [y+]}}]" \
+  --set "output.monitors.bottom.at=[H/2, 0.1*H]"
+judge 120*T '^pressure'
 
 page standing-wave standing-wave-2d terms
 runs "Re = 50" parameters.dx "H/20 H/40"
@@ -107,28 +154,53 @@ curves momentum "Momentum along the tank" 'column("time [s]")' 'column("momentum
 runs "Re = 200, eight periods: more of the damping is numerical" parameters.dx "H/20" --set parameters.q=0.005 --set "run.end=8*T"
 
 page oscillating-drop oscillating-drop-2d exact-solutions
+over . "the largest, 1.93 R"
+because 'alpha = 0.02' "the exact drop has no viscosity; this one is damped as alpha says"
+because 'No viscosity' "the error over R is twice that over the largest semi-axis"
 runs "Artificial viscosity, alpha = 0.02" parameters.dx "R/20"
 judge R/20
+judge R/20 . 1.93185 R
 runs "No viscosity, corrected gradients" parameters.dx "R/10 R/20 R/40" --set terms.viscosity-artificial.alpha=0 --set compare.0.bar=2e-3 --set compare.1.bar=2e-3 \
   --set terms.continuity.correction=one-sided --set terms.pressure.correction=mean
 judge R/20
-curves axes "Semi-axis along x, no viscosity" 'column("time [s]")' 'column("a [m]")' 'set xlabel "time [s]"' 'set ylabel "a [m]"'
+curves axes "Semi-axis along x, no viscosity" 'column("time [s]")' 'column("a [m]")' 'set xlabel "time [s]"' 'set ylabel "a [m]"' \
+  '"< awk -v omega=1 -v rate=1 -v end=4.8274 -f validation/drop.awk" using 1:2 with lines lc "black" dt 2 title "exact"'
 picture R/20 frames "pressure"
 runs "No viscosity" parameters.dx "R/10 R/20 R/40" --set terms.viscosity-artificial.alpha=0
+judge_bar=2e-3 judge R/20
+judge_bar=2e-3 judge R/20 . 1.93185 R
 runs "The same, h/dx = 2.8" parameters.dx "R/20 R/40" --set terms.viscosity-artificial.alpha=0 --set kernel.h_over_dx=2.8
 runs "The same, h/dx = 2, sound 1.4 times as fast" parameters.dx "R/20 R/40" --set terms.viscosity-artificial.alpha=0 --set "groups.drop.eos.tait.sound_speed=20*R*omega"
 say "At a fixed h/dx the error settles at about 0.002, that of sums over disordered particles, which is one of h/dx ([consistency.md](../consistency.md)), and R/40 is no" \
   "better than R/20. With h/dx growing as dx^(-1/2), from 2 at R/20 to 2.8 at R/40, it falls from 0.0018 and 0.0022 to 0.0005 and 0.0007. The speed of sound is not the" \
   "reason, nor is the start: the particles of a lattice inside the disc have semi-axes 1.0025 R with R/20, 0.9993 R with R/40."
-tests accuracy/test_drop "both semi-axes over those of the start, no viscosity, sound 20" "exact solution" "≤ 2e-3" \
-  'alpha = 0: error of the semi-axes \([0-9.]*\)' "R/dx = 20"
+tests accuracy/test_drop "both semi-axes, each over that of the lattice; rms over the largest, no viscosity" "exact solution" "≤ 2e-3" \
+  'alpha = 0: error of the semi-axes \([0-9.]*\)' "R/dx = 20, sound 20 omega R"
+tests accuracy/test_drop "the same, no viscosity, corrected gradients" "exact solution" "≤ 2e-3" \
+  'corrected: error of the semi-axes \([0-9.]*\)' "R/dx = 20, sound 20 omega R"
+tests accuracy/test_drop "the same, alpha = 0.02" "exact solution" "≤ 7e-3" \
+  'alpha = 0.02: error of the semi-axes \([0-9.]*\)' "R/dx = 20, sound 20 omega R"
 tests accuracy/test_drop "the same, alpha = 0.02, corrected gradients" "exact solution" "≤ 7e-3" \
-  'alpha = 0.02, corrected: error of the semi-axes \([0-9.]*\)' "R/dx = 20"
+  'alpha = 0.02, corrected: error of the semi-axes \([0-9.]*\)' "R/dx = 20, sound 20 omega R"
+say "What the error is divided by is a choice that the bar does not tell: here the largest semi-axis that the exact drop has; rows over R tell the other one." \
+  "Artificial viscosity is the more of a viscosity the faster sound is: alpha h c0."
 
 page elliptical-patch elliptical-patch-2d exact-solutions
+over 'along .$' "the largest, 1.94 R"
+over 'at the end$' "the exact one"
+because 'h/dx = (1.5|2),' "the lattice is drawn out to almost twice dx along x, where so narrow a kernel has too few neighbours"
 runs "h/dx = 2.5" parameters.dx "R/20 R/40"
-judge R/20
+judge R/40
+curves a "Semi-axis along x" 'column("time [s]")' 'column("a [m]")' 'set xlabel "time [s]"' 'set ylabel "a [m]"' \
+  '"< awk -v omega=0 -v rate=100 -v end=0.0076 -f validation/drop.awk" using 1:2 with lines lc "black" dt 2 title "exact"'
+curves b "Semi-axis along y" 'column("time [s]")' 'column("b [m]")' 'set xlabel "time [s]"' 'set ylabel "b [m]"' \
+  '"< awk -v omega=0 -v rate=100 -v end=0.0076 -f validation/drop.awk" using 1:3 with lines lc "black" dt 2 title "exact"'
 picture R/20 frames "pressure"
+runs "h/dx = 2" parameters.dx "R/20 R/40" --set kernel.h_over_dx=2
+judge R/40 'at the end'
+runs "h/dx = 1.5" parameters.dx "R/20 R/40" --set kernel.h_over_dx=1.5
+judge R/40 'at the end'
+say "The bar is met by a kernel wider than the usual 1.3 to 2 dx, about which \`sphode check\` warns: it is chosen for where the lattice ends, not for where it begins."
 
 page rotating-square rotating-square-2d exact-solutions
 runs "Exact pressure at the start" parameters.n "25 50 100"
@@ -194,6 +266,9 @@ tests accuracy/test_wall_models "order of a manufactured flow, Adami's walls" "i
   'manufactured, adami.*order \([0-9.]*\)' "h/dx = 2, 16 to 32 across"
 tests accuracy/test_wall_models "order of a manufactured flow, mirrors" "its fields" "≥ 1" \
   'manufactured, mirror, no slip, h.*order \([0-9.]*\)' "h/dx = 2, 16 to 32 across"
+tests accuracy/test_wall_models "Couette and Poiseuille, dynamic boundary particles, rms in % of V" "exact series" – \
+  'dbc, 25 across: rms \([0-9.]*\) %' "h/dx = 1.5, 25 across"
+tests accuracy/test_wall_models "particles lost in 1.2 s of impact, mirrors" "none" "≤ 0" 'impact, mirror: \([0-9]*\) of' "H/dx = 20"
 say "Finer ones, dynamic boundary particles and plates: [walls.md](../walls.md)."
 
 elsewhere "Three wall models side by side, 10 s of impact, manufactured solutions" \
@@ -202,17 +277,30 @@ elsewhere "Three wall models side by side, 10 s of impact, manufactured solution
 group "Compressible flow"
 
 page acoustic-wave acoustic-wave-1d exact-solutions
-runs "One period" parameters.n "32 64 128 256 512"
+because 'wendland' "sums of this kernel over a lattice are off by what h/dx decides, 5 % here, with any number of particles"
+runs "One period, cubic spline, h/dx = 2" parameters.n "32 64 128 256 512"
 judge 128
 order velocity 1.9
 picture 128 compare_0 "velocities of all particles at four times"
+runs "One period, the default wendland-c2, h/dx = 1.5" parameters.n "128 256 512" --set kernel.name=wendland-c2 --set kernel.h_over_dx=1.5
+judge 512 velocity
+order velocity 1.9
+say "The order is that of the spline with whole h/dx, whose sums over a lattice are exact for straight lines. Any other kernel needs h/dx to grow as dx falls."
 
 page sod sod-1d exact-solutions
-runs "Equal spacing, masses 8:1" parameters.n "100 200 400 800"
+because 'h/dx = 1.5' "gas thins to 2.35 dx between particles: with so few neighbours the fan breaks into steps"
+runs "Equal spacing, masses 8:1, h/dx = 2.75" parameters.n "100 200 400 800"
 judge 400
 picture 400 compare_0 "density"
 picture 400 compare_1 "velocity"
-tests accuracy/test_sod "plateaus of velocity, density and pressure, 400 particles" "exact solution" "2 %"
+runs "The same, h/dx = 1.5" parameters.n "200 400" --set kernel.h_over_dx=1.5
+judge 400
+tests accuracy/test_sod "plateau of velocity, %, continuity or summation" "exact solution" "≤ 2" 'velocity between.*, \([0-9.]*\) % off' "400 particles, h/dx = 2.75"
+tests accuracy/test_sod "plateaus of density, %" "exact solution" "≤ 2" 'density between.*, \([0-9.]*\) % off' "400 particles, h/dx = 2.75"
+tests accuracy/test_sod "plateau of pressure, %, continuity or summation" "exact solution" "≤ 2" 'pressure between.*, \([0-9.]*\) % off' "400 particles, h/dx = 2.75"
+say "Plateaus are means over what is 0.15 and more of x/t from the waves, 0.25 from the contact, on its left and right. n particles lie between -0.5 and 0.5: the box is" \
+  "periodic and twice as long. What the pictures show besides: density 0.656 beside the exact 0.426 on the left of the contact, and 0.199 beside" \
+  "0.266 on its right, where the jump of the start falls between two particles; steps in the fan; velocity up to 0.988 at the tail of the fan, 0.927 behind it."
 
 page heat-slab heat-slab-1d terms
 runs "Implicit conduction" parameters.dx "L/50 L/100 L/200"
@@ -227,15 +315,19 @@ picture L/100 compare_0 "temperatures of all particles at three times"
 group "Time integration"
 
 page order "tests: Orders of the integrators" time-integration
-tests accuracy/test_order "every scheme on smooth SPH problems (Wendland C6)" "Richardson" "≥ order − 0.1"
-tests accuracy/test_order_imex "implicit-explicit schemes" "Richardson" "≥ order − 0.1"
-tests unit/test_integrator "every scheme on smooth ODEs; dense output" "exact solutions" "≥ order − 0.1"
+tests accuracy/test_order "every scheme on smooth SPH problems (Wendland C6): the least order, minus the nominal one" "finer run of order 8" "≥ -0.1" \
+  'least order - nominal: \(-*[0-9.]*\)'
+tests accuracy/test_order_imex "implicit-explicit schemes: the same" "finer run of order 8" "≥ -0.1" 'least order - nominal: \(-*[0-9.]*\)'
+tests unit/test_integrator "every scheme on smooth ODEs: the same" "exact solutions" "≥ -0.1" 'least order - nominal: \(-*[0-9.]*\)'
+tests unit/test_integrator "dense output has the order of its scheme, and what else that program asserts" "exact solutions" "≥ order − 0.1"
 
 elsewhere "work-precision diagrams" "published in [integrators.md](../integrators.md), by \`make work-precision\`; the recommended default is on their front"
 
 page events "tests: Events" time-integration
-tests unit/test_root "roots in the dense output of a step" "exact times" "1e-6 of a step"
-tests property/test_events "events of runs" "exact times" "1e-6 of a step"
+tests unit/test_root "roots in the dense output of a step, of a step" "ARKODE's root finder" "≤ 1e-6" 'roots: \([0-9.e-]*\) of'
+tests property/test_events "moments of events of runs, of a step" "exact times" "≤ 1e-6" 'moments of events: \([0-9.e-]*\) of'
+tests property/test_events "stops, changes, frames, and what else that program asserts" "exact times" "exact"
 
 page restart "tests: Restart" time-integration
-tests property/test_checkpoint "restarted = uninterrupted, every integrator, fixed and adaptive steps" "the uninterrupted run" "bitwise"
+tests property/test_checkpoint "restarted = uninterrupted, integrators with fixed and adaptive steps" "the uninterrupted run" "bitwise" '\([0-9]* of the integrators\)'
+tests property/test_checkpoint "files, linear solvers, controllers, relaxed steps (from SUNDIALS 6.6 on)" "the uninterrupted run" "bitwise"
