@@ -147,6 +147,15 @@ ok $? "nothing is left behind"
 
 # ---- the tutorial
 
+{
+  printf 'dimension: 2\nspacing: 2 cm\n'
+  sed -n '/^## 3\. /,/^## 4\. /{/^```yaml/,/^```$/{/^```/!p}}' "$SRCDIR/docs/tutorial.md" |
+    sed 's/^  \(water\|tank\):$/&\n    density: 1000\n    eos: {tait: {sound_speed: 30}}/'
+  printf 'terms: {continuity: , pressure: , gravity: {acceleration: [0, -9.81]}}\nrun: {end: 0.1 s}\n'
+} >pillar.yml
+run 0 "$sphode" check pillar.yml && grep -q "^the case  *right, 0 warnings" out
+ok $? "the tutorial's tank with a pillar fits"
+
 # Each YAML block of section 4 stands in the case, word for word.
 whole=$(<"$SRCDIR/cases/piston-hill-3d.yml") good=0 blocks=0 block='' inside=0
 while IFS= read -r line; do
