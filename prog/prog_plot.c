@@ -57,9 +57,8 @@ static int curves(const prog_options *o)
   snprintf(csv, sizeof csv, "%s/%s", o->what, table);
   snprintf(png, sizeof png, "%s/%.*s.png", o->what, (int)(end ? end - table : (long)strlen(table)),
            table);
-  if (strlen(o->series) >= sizeof columns)
+  if ((size_t)snprintf(columns, sizeof columns, "%s", o->series) >= sizeof columns)
     return sph_prog_error(PROG_USAGE, "plot: --series of more than %zu bytes", sizeof columns - 1);
-  strcpy(columns, o->series);
   for (char *word = strtok_r(columns, ",", &rest); word; word = strtok_r(NULL, ",", &rest)) {
     if (n == CURVES)
       return sph_prog_error(PROG_USAGE, "plot: --series of more than %d columns", CURVES);
