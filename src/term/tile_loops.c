@@ -2,20 +2,32 @@
 #include "tile_loops.h"
 #include "tile_matrix.h"
 
-#define MATRIX(dim)                                                  \
-  static void matrix_##dim(const sph_matrix_task *t, long b, long e) \
-  {                                                                  \
-    const tile_constants *k = t->pairs->constants;                   \
-    tile_matrix_blocks(dim, k->fluid.kernel, t, b, e);               \
+#define DIM(dim)                                                                                  \
+  static __attribute__((noinline)) void blocks_##dim(tile_kernel *kernel, const sph_pair_task *t, \
+                                                     long b, long e)                              \
+  {                                                                                               \
+    tile_blocks(dim, kernel, t, b, e);                                                            \
+  }                                                                                               \
+  static void F_any_##dim(const tile_constants *k, tile_rows *rows, int n)                        \
+  {                                                                                               \
+    tile_F(dim, k->fluid.kernel, k, rows, n);                                                     \
+  }                                                                                               \
+  static void matrix_##dim(const sph_matrix_task *t, long b, long e)                              \
+  {                                                                                               \
+    tile_matrix_blocks(dim, F_any_##dim, t, b, e);                                                \
   }
-MATRIX(1)
-MATRIX(2)
-MATRIX(3)
+DIM(1)
+DIM(2)
+DIM(3)
 
-#define TILE(kernel, dim)                                                   \
-  static void tile_##kernel##_##dim(const sph_pair_task *t, long b, long e) \
-  {                                                                         \
-    tile_blocks(dim, kernel, t, b, e);                                      \
+#define TILE(kernel, dim)                                                         \
+  static void F_##kernel##_##dim(const tile_constants *k, tile_rows *rows, int n) \
+  {                                                                               \
+    tile_F(dim, kernel, k, rows, n);                                              \
+  }                                                                               \
+  static void tile_##kernel##_##dim(const sph_pair_task *t, long b, long e)       \
+  {                                                                               \
+    blocks_##dim(F_##kernel##_##dim, t, b, e);                                    \
   }
 #define KERNEL(kernel) TILE(kernel, 1) TILE(kernel, 2) TILE(kernel, 3)
 SPH_KERNEL_LIST(KERNEL)

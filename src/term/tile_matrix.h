@@ -40,7 +40,7 @@ static __attribute__((noinline, unused)) void tile_jacobian(int dim, tile_matrix
   }
 }
 
-BODY void tile_matrix_take(int dim, int kernel, const vec *v, tile_matrix *it, int n)
+BODY void tile_matrix_take(int dim, tile_kernel *kernel, const vec *v, tile_matrix *it, int n)
 {
   tile_fill(dim, kernel, it->k, v, &it->rows, n);
   tile_jacobian(dim, it, n);
@@ -86,7 +86,7 @@ BODY void tile_matrix_close(int dim, tile_matrix *it, long b)
 }
 
 /* All pairs of one block. */
-BODY void tile_matrix_block(int dim, int kernel, tile_matrix *it, long b)
+BODY void tile_matrix_block(int dim, tile_kernel *kernel, tile_matrix *it, long b)
 {
   const sph_pair_task *t = it->task->pairs;
   const double *record = t->target + b * SPH_LANES * t->target_stride;
@@ -117,7 +117,8 @@ BODY void tile_matrix_block(int dim, int kernel, tile_matrix *it, long b)
   tile_matrix_close(dim, it, b);
 }
 
-BODY void tile_matrix_blocks(int dim, int kernel, const sph_matrix_task *t, long begin, long end)
+BODY void tile_matrix_blocks(int dim, tile_kernel *kernel, const sph_matrix_task *t, long begin,
+                             long end)
 {
   tile_matrix it = {.task = t, .k = t->pairs->constants, .vector = t->vector};
   for (long b = begin; b < end; b++)

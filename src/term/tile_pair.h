@@ -161,16 +161,23 @@ BODY void tile_velocities(int dim, const vec *v_i, int slot, int n, const tile_r
     for (int d = 0; d < dim; d++) v[d][q] = v_i[d] - rows->source[q][slot + d];
 }
 
+/* F of rows 0 .. n - 1, in the unit of users: all that knows the kernel. */
+typedef void tile_kernel(const tile_constants *k, tile_rows *rows, int n);
+
+BODY void tile_F(int dim, int kernel, const tile_constants *k, tile_rows *rows, int n)
+{
+  const double inverse_h = k->fluid.inverse_h, scale = k->F_scale;
+  for (int q = 0; q < n; q++)
+    rows->F[q] = scale * kernel_shape_f(kernel, dim, v_sqrt(rows->r2[q]) * inverse_h);
+}
+
 /* What is read of rows 0 .. n - 1 besides r and r2, one after another: short loops, whose roots and
  * divisions overlap. */
-BODY void tile_fill(int dim, int kernel, const tile_constants *k, const vec *v, tile_rows *rows,
-                    int n)
+BODY void tile_fill(int dim, tile_kernel *kernel, const tile_constants *k, const vec *v,
+                    tile_rows *rows, int n)
 {
   const unsigned show = k->show;
-  const double inverse_h = k->fluid.inverse_h, scale = k->F_scale;
-  if (show & SPH_TILE_F)
-    for (int q = 0; q < n; q++)
-      rows->F[q] = scale * kernel_shape_f(kernel, dim, v_sqrt(rows->r2[q]) * inverse_h);
+  if (show & SPH_TILE_F) kernel(k, rows, n);
   if (show & SPH_TILE_VOLUME)
     for (int q = 0; q < n; q++) rows->V[q] = v_set(rows->source[q][slot_V(dim)]);
   if (show & SPH_TILE_MASS)
@@ -299,7 +306,7 @@ BODY vec tile_total(vec *row, int n)
 }
 
 /* The registered terms, each on rows 0 .. n - 1; what they added: to the fluid sums `taken`, to
- * density and scalars `more`.  Not inlined: once for all kernels and places. */
+ * density and scalars `more`. */
 static __attribute__((noinline, unused)) void tile_call(int dim, const tile_constants *k,
                                                         sph_tile *tile, tile_rows *rows, int n,
                                                         vec *taken, vec *more)
@@ -332,7 +339,8 @@ typedef struct tile_work {
 } tile_work;
 
 /* Fills rows 0 .. n - 1, calls the terms, sums what they added, in the unit of the fluid sums. */
-BODY void tile_take(int dim, int kernel, const tile_constants *k, tile_work *w, int n)
+static __attribute__((noinline, unused)) void
+tile_take(int dim, tile_kernel *kernel, const tile_constants *k, tile_work *w, int n)
 {
   const vec unit = v_set(1 / k->F_scale);
   vec taken[SPH_SUM_DRIFT];
@@ -343,7 +351,7 @@ BODY void tile_take(int dim, int kernel, const tile_constants *k, tile_work *w, 
 }
 
 /* All pairs of one block; rows go on over the ends of runs. */
-BODY void tile_block(int dim, int kernel, const sph_pair_task *t, long b, tile_work *w)
+BODY void tile_block(int dim, tile_kernel *kernel, const sph_pair_task *t, long b, tile_work *w)
 {
   const tile_constants *k = t->constants;
   const double *record = t->target + b * SPH_LANES * t->target_stride;
@@ -369,7 +377,7 @@ BODY void tile_block(int dim, int kernel, const sph_pair_task *t, long b, tile_w
   if (n > 0) tile_take(dim, kernel, k, w, n);
 }
 
-BODY void tile_blocks(int dim, int kernel, const sph_pair_task *t, long begin, long end)
+BODY void tile_blocks(int dim, tile_kernel *kernel, const sph_pair_task *t, long begin, long end)
 {
   const tile_constants *k = t->constants;
   tile_work w;
