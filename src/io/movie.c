@@ -174,27 +174,33 @@ static int check(movie *m)
   return SPH_OK;
 }
 
+static int draw_all(movie *m)
+{
+  int status = SPH_OK;
+  sph_picture_view(&m->picture);
+  if (m->def->from == m->def->to) {
+    status = visit_all(m, take);
+    sph_picture_range(&m->picture);
+  }
+  return status ? status : visit_all(m, draw);
+}
+
 static int make(movie *m)
 {
   const sph_movie_def *def = m->def;
-  sph_picture *p = &m->picture;
   m->frames = sph_frames_list(def->directory, &m->number, m->error);
   if (m->frames < 0) return m->frames;
   if (m->frames == 0)
     return sph_error_set(m->error, SPH_ERR_FILE, "%s holds no snapshots", def->directory);
   int status = run_ffmpeg(m, ".", (const char *const[]){"ffmpeg", "-version", NULL});
-  *p = (sph_picture){.field = m->field,
-                     .width = def->width ? def->width : WIDTH,
-                     .height = def->width ? def->height : WIDTH,
-                     .from = def->from,
-                     .to = def->to};
+  m->picture = (sph_picture){.field = m->field,
+                             .width = def->width ? def->width : WIDTH,
+                             .height = def->width ? def->height : WIDTH,
+                             .from = def->from,
+                             .to = def->to};
+  /* A picture has bounds, and a view, once all frames could be read. */
   if (!status) status = visit_all(m, bound);
-  sph_picture_view(p);
-  if (!status && def->from == def->to) {
-    status = visit_all(m, take);
-    sph_picture_range(p);
-  }
-  if (!status) status = visit_all(m, draw);
+  if (!status) status = draw_all(m);
   if (!status) status = encode(m);
   remove_frames(m);
   return status;

@@ -75,5 +75,8 @@ ok $? "a failing ffmpeg"
 head -c 3000 run/snapshot_0003.hdf >cut && cp cut run/snapshot_0003.hdf
 refused 1 "no movie: run/snapshot_0003.hdf" run -o b.mp4 && [[ ! -e b.mp4 ]]
 ok $? "a damaged frame"
+cp cut run/snapshot_0000.hdf
+refused 1 "no movie: run/snapshot_0000.hdf" run -o b.mp4 && [[ ! -e b.mp4 ]]
+ok $? "a damaged frame, the first of all"
 
 echo 1..$count
