@@ -1,5 +1,6 @@
 /* sphode -- the program. */
 #include <getopt.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -67,14 +68,16 @@ static const command commands[] = {
      "                         and -sweep, here)\n"
      "  -s, --set KEY=VALUE    as with run\n"
      "  -t, --threads N        of each run\n"
-     "  -f, --force            write over a sweep that ended\n"
+     "  -f, --force            all runs anew, over what an earlier sweep left\n"
      "  -q, --quiet            no table\n"
      "      --lenient          as with run\n"
      "\n"
-     "Leaves sweep.csv, RUN/ and RUN.log of each run, and convergence.csv and convergence.png "
-     "where\n"
-     "there are comparisons.  Exit status: 0 done, 1 a run failed (the others are kept), 3 a\n"
-     "comparison misses its bar.\n"},
+     "Leaves sweep.csv, RUN/ and RUN.log of each run, and convergence.csv and convergence.png\n"
+     "where there are comparisons.  Ctrl-C or SIGTERM stops its runs behind checkpoints; the same\n"
+     "command goes on: runs that are done are kept, stopped ones go on, the rest begins.\n"
+     "\n"
+     "Exit status: 0 done, 1 a run failed (the others are kept), 3 a comparison misses its bar,\n"
+     "4 a run was stopped by its time limit, 130 or 143 by Ctrl-C or SIGTERM.\n"},
     {"schema", "[FILE]", "f", sph_prog_schema,
      "the JSON Schema of case files, for editors, into a file or to standard output",
      "  In an editor with a YAML language server: sphode schema sphode.schema.json, and as the\n"
@@ -359,6 +362,7 @@ int main(int argc, char **argv)
 {
   prog_options o = {0};
   const char *word = argc > 1 ? argv[1] : NULL;
+  signal(SIGXFSZ, SIG_IGN); /* a file above ulimit -f is an error as a full disk is */
   if (word && (!strcmp(word, "--help") || !strcmp(word, "-h") || !strcmp(word, "help"))) {
     print_help(find(argc > 2 ? argv[2] : NULL));
     return PROG_OK;

@@ -2,7 +2,6 @@
 #ifndef SPH_PROG_H
 #define SPH_PROG_H
 #include <sphode.h>
-#include <stdio.h>
 
 enum { PROG_OK = 0, PROG_FAILED = 1, PROG_USAGE = 2, PROG_BAR = 3, PROG_LIMIT = 4 };
 enum {
@@ -47,7 +46,6 @@ typedef struct prog_options {
   int frozen;                    /* spectrum: positions are held */
   const char *vary[PROG_VARIED]; /* sweep: "dx=0.02,0.01" */
   int varied, jobs;              /* jobs 0: 1 */
-  FILE *report;                  /* run: what a sweep wants to know; NULL: nobody asks */
   const char *picture;           /* check: of the geometry; NULL: none */
   char command[2000];
 } prog_options;
@@ -105,6 +103,8 @@ typedef struct prog_progress {
   long bound_by[SPH_BOUND_COUNT]; /* at the last line */
 } prog_progress;
 
+/* From the first call on SIGINT and SIGTERM are noted; once: a second one ends the program. */
+void sph_prog_progress_catch(int once);
 /* Reports a run that is to go to time `end`; SIGINT and SIGTERM stop it. */
 void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int quiet);
 void sph_prog_progress_end(prog_progress *p);

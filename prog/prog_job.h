@@ -10,15 +10,18 @@ typedef struct prog_job {
   char directory[4000];
   const char *command; /* the line that made the run, for what it writes */
   char line[4100];
-  double end;        /* [s] */
-  int held;          /* the directory, -1: not */
-  sph_balance start; /* of the fluids */
+  double end;             /* [s] */
+  int held;               /* the directory, -1: not */
+  struct prog_live *page; /* prog_live.h; NULL: none */
+  sph_balance start;      /* of the fluids */
   sph_comparison *comparison;
   int comparisons;
 } prog_job;
 
 /* The simulation of j->c at its start, with j->start, which checkpoints keep; an exit status. */
 int sph_prog_run_build(prog_job *j);
+/* The page, where one is wanted, before anything is written: its port may be taken. */
+int sph_prog_run_listen(prog_job *j);
 /* Its outputs and checkpoints, and case.yml. */
 int sph_prog_run_outputs(prog_job *j);
 /* Runs to j->end, compares, tells, draws; frees all of the job.  status: of what came before. */

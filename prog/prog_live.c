@@ -30,8 +30,7 @@ struct prog_live {
   int paused, stopped, wanted, failed;
   char field[LIVE_FIELD];
   prog_live_frame frame;
-  double filled; /* wall time [s] */
-  double end;
+  double filled;             /* wall time [s] */
   prog_live_history history; /* the run's alone */
   char token[LIVE_TOKEN + 1];
 };
@@ -148,14 +147,13 @@ static struct MHD_Daemon *listen_on(prog_live *live, int port)
                           MHD_OPTION_END);
 }
 
-prog_live *sph_prog_live_start(int port, double end)
+prog_live *sph_prog_live_start(int port)
 {
   prog_live *live = calloc(1, sizeof *live);
   if (!live) {
     sph_prog_error(PROG_FAILED, "--live: out of memory");
     return NULL;
   }
-  live->end = end;
   snprintf(live->field, sizeof live->field, "velocity");
   pthread_mutex_init(&live->lock, NULL);
   pthread_cond_init(&live->told, NULL);
@@ -171,23 +169,25 @@ prog_live *sph_prog_live_start(int port, double end)
   return live;
 }
 
-static void fill(prog_live *live, sph_sim *sim)
+static void fill(prog_live *live, sph_sim *sim, double end)
 {
-  live->failed = sph_prog_live_frame_fill(&live->frame, sim, live->field, live->end, live->paused,
-                                          &live->history);
+  live->failed =
+      sph_prog_live_frame_fill(&live->frame, sim, live->field, end, live->paused, &live->history);
   if (live->failed) live->frame.size = 0;
   live->wanted = 0;
   live->filled = sph_prog_progress_now();
 }
 
-int sph_prog_live_step(prog_live *live, sph_sim *sim, int (*is_stopped)(void *ctx), void *ctx)
+int sph_prog_live_step(prog_live *live, sph_sim *sim, double end, int (*is_stopped)(void *ctx),
+                       void *ctx)
 {
   sph_prog_live_frame_note(&live->history, sim);
   pthread_mutex_lock(&live->lock);
   const double now = sph_prog_progress_now();
-  if (!live->frame.size || (live->wanted && now - live->filled >= live_interval)) fill(live, sim);
+  if (!live->frame.size || (live->wanted && now - live->filled >= live_interval))
+    fill(live, sim, end);
   while (live->paused && !live->stopped && !is_stopped(ctx)) {
-    fill(live, sim);
+    fill(live, sim, end);
     struct timespec until;
     clock_gettime(CLOCK_REALTIME, &until);
     until.tv_nsec += 100000000; /* a signal may have come */
@@ -211,16 +211,17 @@ void sph_prog_live_end(prog_live *live)
 
 #else
 
-prog_live *sph_prog_live_start(int port, double end)
+prog_live *sph_prog_live_start(int port)
 {
-  (void)port, (void)end;
+  (void)port;
   sph_prog_error(PROG_FAILED, "--live: this sphode was built without libmicrohttpd; install it "
                               "(Debian: libmicrohttpd-dev), then configure and make again");
   return NULL;
 }
-int sph_prog_live_step(prog_live *live, sph_sim *sim, int (*is_stopped)(void *ctx), void *ctx)
+int sph_prog_live_step(prog_live *live, sph_sim *sim, double end, int (*is_stopped)(void *ctx),
+                       void *ctx)
 {
-  (void)live, (void)sim, (void)is_stopped, (void)ctx;
+  (void)live, (void)sim, (void)end, (void)is_stopped, (void)ctx;
   return 0;
 }
 void sph_prog_live_end(prog_live *live) { (void)live; }

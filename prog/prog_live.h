@@ -33,10 +33,11 @@ typedef struct prog_live prog_live;
 
 /* Serves http://127.0.0.1:PORT/TOKEN/, port 0: a free one, and tells the address; NULL, told: it
  * cannot, or there is no libmicrohttpd in this build. */
-prog_live *sph_prog_live_start(int port, double end);
-/* After a step, in the thread of the run: shows it where somebody looks, and waits while the run is
- * paused; 1: the page wants it stopped.  is_stopped ends the waiting. */
-int sph_prog_live_step(prog_live *live, sph_sim *sim, int (*is_stopped)(void *ctx), void *ctx);
+prog_live *sph_prog_live_start(int port);
+/* After a step, in the thread of the run to time `end`: shows it where somebody looks, and waits
+ * while the run is paused; 1: the page wants it stopped.  is_stopped ends the waiting. */
+int sph_prog_live_step(prog_live *live, sph_sim *sim, double end, int (*is_stopped)(void *ctx),
+                       void *ctx);
 void sph_prog_live_end(prog_live *live); /* NULL is fine */
 
 #endif

@@ -114,6 +114,13 @@ static int put_particles(prog_live_frame *frame, const sph_sim *sim, const char 
   return 0;
 }
 
+/* In 2D a simulation is a metre deep, in 1D a square metre across. */
+static const char *unit_of(const sph_field_info *field, int dim)
+{
+  static const char *const mass[] = {"kg/m^2", "kg/m", "kg"};
+  return strcmp(field->name, "mass") ? field->unit : mass[dim - 1];
+}
+
 static int put_fields(prog_live_frame *frame, const sph_sim *sim)
 {
   const sph_group *group;
@@ -123,7 +130,8 @@ static int put_fields(prog_live_frame *frame, const sph_sim *sim)
     k++;
   for (int k = 0; !bad && group && (field = sph_group_field(group, k)); k++)
     if (strcmp(field->name, "position") && sph_group_read(group, field->name, 0))
-      bad = put(frame, "%s[\"%s\",\"%s\"]", any++ ? "," : "", field->name, field->unit);
+      bad = put(frame, "%s[\"%s\",\"%s\"]", any++ ? "," : "", field->name,
+                unit_of(field, sph_sim_dim(sim)));
   return bad || put(frame, "],");
 }
 

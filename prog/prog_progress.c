@@ -99,7 +99,7 @@ static int progress(void *ctx, sph_sim *sim)
   p->longest = fmax(p->longest, now - p->stepped);
   p->stepped = now;
   if (!p->quiet && is_due(p, sim)) tell(p, sim);
-  if (p->page && sph_prog_live_step(p->page, sim, is_stopped, p)) return 1;
+  if (p->page && sph_prog_live_step(p->page, sim, p->end, is_stopped, p)) return 1;
   return is_stopped(p) || sph_prog_progress_over(p);
 }
 
@@ -119,9 +119,18 @@ static double queue_left(void)
   return rest && rest > text && !*rest && end > 0 ? end - (double)time(NULL) : INFINITY;
 }
 
+void sph_prog_progress_catch(int once)
+{
+  static int caught;
+  struct sigaction action = {.sa_handler = on_signal, .sa_flags = once ? SA_RESETHAND : 0};
+  if (caught++) return;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+}
+
 void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int quiet)
 {
-  struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESETHAND};
   *p = (prog_progress){.end = end,
                        .start = sph_prog_progress_now(),
                        .from = sph_sim_time(sim),
@@ -131,9 +140,7 @@ void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int qui
   const double left = queue_left();
   p->queue = left < INFINITY ? p->start + left : 0;
   p->tenth = floor(10 * p->from / end);
-  sigemptyset(&action.sa_mask); /* a second Ctrl-C ends the program at once */
-  sigaction(SIGINT, &action, NULL);
-  sigaction(SIGTERM, &action, NULL);
+  sph_prog_progress_catch(1); /* a second Ctrl-C ends the program at once */
   sph_sim_set_progress(sim, progress, p);
 }
 

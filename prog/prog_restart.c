@@ -110,7 +110,7 @@ static int prepare(prog_job *j)
   if (snprintf(j->directory, sizeof j->directory, "%s", j->o->what) >= (int)sizeof j->directory)
     return sph_prog_error(PROG_FAILED, "%.60s...: path too long", j->o->what);
   j->held = sph_prog_directory_hold(j->directory);
-  if (j->held < 0) return PROG_FAILED;
+  if (j->held < 0 || sph_prog_run_listen(j)) return PROG_FAILED;
   for (; status < 0 && sph_checkpoint_find(j->directory, k, path, sizeof path); k++)
     status = go_on_from(j, path);
   if (status >= 0) return status;

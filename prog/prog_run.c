@@ -77,6 +77,13 @@ int sph_prog_run_outputs(prog_job *j)
   return write_case(j);
 }
 
+int sph_prog_run_listen(prog_job *j)
+{
+  if (!j->o->live) return PROG_OK;
+  j->page = sph_prog_live_start(j->o->port);
+  return j->page ? PROG_OK : PROG_FAILED;
+}
+
 /* What sphode check would say. */
 static void warn(const prog_job *j)
 {
@@ -91,6 +98,8 @@ static int prepare(prog_job *j)
   j->c = sph_case_read(j->o->what, j->o->sets, j->o->set, &error);
   if (!j->c) return failed(&error);
   int status = sph_prog_run_build(j);
+  if (status) return status;
+  status = sph_prog_run_listen(j);
   if (status) return status;
   j->end = sph_case_end(j->c);
   name_directory(j);
@@ -139,9 +148,10 @@ static int simulate(prog_job *j)
   const double limit = sph_case_time_limit(j->c);
   sph_prog_progress_start(&progress, j->sim, j->end, j->o->quiet);
   if (limit > 0) progress.limit = progress.start + limit;
-  if (j->o->live && !(progress.page = sph_prog_live_start(j->o->port, j->end))) return PROG_FAILED;
+  progress.page = j->page;
   int status = sph_sim_run(j->sim, j->end);
-  sph_prog_live_end(progress.page);
+  sph_prog_live_end(j->page);
+  j->page = NULL;
   sph_prog_progress_end(&progress);
   if (status == SPH_OK) return PROG_OK;
   sph_prog_error(PROG_FAILED, "%s: %s", j->directory, sph_sim_error(j->sim));
@@ -184,24 +194,6 @@ static int judge(const prog_job *j)
                         j->directory, missed, j->comparisons, missed == 1 ? "misses" : "miss");
 }
 
-/* For a sweep, which reads it again. */
-static void report(const prog_job *j, FILE *to)
-{
-  sph_sim_stats stats;
-  const sph_group *group;
-  long particles = 0;
-  if (!to) return;
-  sph_sim_get_stats(j->sim, &stats);
-  for (int k = 0; (group = sph_sim_group_get(j->sim, k)); k++)
-    if (!strcmp(sph_group_kind(group), "fluid")) particles += sph_group_count(group);
-  fprintf(to, "run %.17g %ld %ld %.9g\n", sph_sim_dx(j->sim), particles, stats.step.steps,
-          stats.seconds);
-  for (int k = 0; k < j->comparisons; k++)
-    fprintf(to, "compare %.17g %.17g %s %s\n", j->comparison[k].value, j->comparison[k].bar,
-            j->comparison[k].norm, j->comparison[k].name);
-  fflush(to);
-}
-
 /* What is told of a run, also of one that failed or was stopped. */
 static int conclude(prog_job *j)
 {
@@ -223,8 +215,8 @@ int sph_prog_run_finish(prog_job *j, int status)
     int compared = status ? status : compare(j), concluded = conclude(j);
     if (!status) status = compared ? compared : concluded;
     if (!status) status = judge(j);
-    report(j, j->o->report);
   }
+  sph_prog_live_end(j->page);
   sph_case_compare_free(j->comparison, j->comparisons);
   sph_sim_free(j->sim);
   sph_case_free(j->c);

@@ -3,19 +3,14 @@
 #include "prog_sweep.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <math.h>
-#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-static volatile sig_atomic_t stop;
-static void on_signal(int number) { stop = number; }
+enum { UNLOGGED = 5 }; /* exit status of a run that failed and could not tell why */
 
 /* ---- what is varied */
 
@@ -82,7 +77,6 @@ static int make_runs(sweep *s)
     for (int k = s->keys - 1; k >= 0; rest /= s->key[k--].n)
       snprintf(r->set[k], sizeof r->set[k], "%s=%s", s->key[k].key,
                s->key[k].value[rest % s->key[k].n]);
-    r->pipe = -1;
     name_run(r, s->keys);
     for (int j = 0; j < s->runs; j++)
       if (!strcmp(s->run[j].name, r->name))
@@ -113,7 +107,34 @@ static int check(const sweep *s)
 
 /* ---- runs */
 
-static void child(const sweep *s, const sweep_run *r, int to)
+/* Signals come only where await() waits, so that none falls between a look and a wait.  Of Ctrl-C
+ * each process is told by the terminal, and again by the sweep: its runs do not mind. */
+
+static void on_child(int number) { (void)number; }
+
+static void hold_signals(sigset_t *before)
+{
+  struct sigaction action = {.sa_handler = on_child};
+  sigset_t held;
+  sph_prog_progress_catch(0);
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGCHLD, &action, NULL);
+  sigemptyset(&held);
+  sigaddset(&held, SIGINT);
+  sigaddset(&held, SIGTERM);
+  sigaddset(&held, SIGCHLD);
+  sigprocmask(SIG_BLOCK, &held, before);
+}
+
+static void release_signals(const sigset_t *before)
+{
+  struct sigaction action = {.sa_handler = SIG_DFL};
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGCHLD, &action, NULL);
+  sigprocmask(SIG_SETMASK, before, NULL);
+}
+
+static void child(const sweep *s, const sweep_run *r)
 {
   char directory[4000], log[4010];
   prog_options o = options_of(s, r);
@@ -121,107 +142,138 @@ static void child(const sweep *s, const sweep_run *r, int to)
   snprintf(log, sizeof log, "%s.log", directory);
   o.output = directory;
   o.lenient = 0;
-  o.report = fdopen(to, "w");
+  o.force = 1; /* what was there was looked at */
+  if (r->goes_on) o.what = directory, o.sets = 0;
   int status = PROG_FAILED;
-  const int logged = freopen(log, "w", stdout) && dup2(fileno(stdout), 2) >= 0;
-  if (logged && o.report) status = sph_prog_run(&o);
-  if ((!logged || fflush(stdout) || ferror(stdout) || ferror(stderr)) && o.report)
-    fprintf(o.report, "unlogged\n");
+  const int logged = freopen(log, r->goes_on ? "a" : "w", stdout) && dup2(fileno(stdout), 2) >= 0;
+  if (logged) status = r->goes_on ? sph_prog_restart(&o) : sph_prog_run(&o);
+  if ((!logged || fflush(stdout) || ferror(stdout) || ferror(stderr)) && status == PROG_FAILED)
+    status = UNLOGGED;
   fflush(NULL);
   _exit(status);
 }
 
-static int start(sweep *s, sweep_run *r)
+static int start(sweep_run *r, const sweep *s, const sigset_t *signals)
 {
-  int ends[2];
-  if (pipe(ends)) return sph_prog_error(PROG_FAILED, "cannot make a pipe: %s", strerror(errno));
   fflush(NULL);
-  const int process = fork();
-  if (process == 0) {
-    close(ends[0]);
-    child(s, r, ends[1]);
+  r->process = fork();
+  if (r->process == 0) {
+    release_signals(signals);
+    child(s, r);
   }
-  close(ends[1]);
-  r->pipe = ends[0];
-  r->process = process;
-  if (process > 0) return PROG_OK;
+  if (r->process > 0) return PROG_OK;
   return sph_prog_error(PROG_FAILED, "cannot make a process: %s", strerror(errno));
 }
 
-/* The lines of sph_prog_run's report. */
-static void read_report(sweep_run *r)
+static void stop_runs(sweep *s)
 {
-  FILE *from = fdopen(r->pipe, "r");
-  char line[300];
-  r->pipe = -1;
-  while (from && fgets(line, sizeof line, from)) {
-    line[strcspn(line, "\n")] = 0;
-    if (sscanf(line, "run %lf %ld %ld %lf", &r->spacing, &r->particles, &r->steps, &r->seconds) ==
-        4)
-      continue;
-    if (!strcmp(line, "unlogged")) r->unlogged = 1;
-    int at = 0, c = r->compared;
-    if (c == SWEEP_COMPARED) continue;
-    if (sscanf(line, "compare %lf %lf %19s %n", &r->of[c].value, &r->of[c].bar, r->of[c].norm,
-               &at) != 3)
-      continue;
-    snprintf(r->of[c].name, sizeof r->of[c].name, "%.79s", line + at);
-    r->compared++;
-  }
-  if (from) fclose(from);
+  int told = 0;
+  s->stopping = 1;
+  for (int k = 0; k < s->runs; k++)
+    if (s->run[k].process > 0) told += !kill(s->run[k].process, sph_prog_progress_signal());
+  if (!s->o->quiet)
+    fprintf(stderr, "stopping: %d run%s a checkpoint first\n", told,
+            told == 1 ? " writes" : "s write");
+}
+
+static void tell(const sweep *s, const sweep_run *r)
+{
+  if (s->o->quiet) return;
+  fprintf(stderr, "%s: %s\n", r->name,
+          r->status == 0              ? "done"
+          : r->status == PROG_BAR     ? "done, misses a bar"
+          : sph_prog_sweep_stopped(r) ? "stopped"
+          : r->unlogged ? "failed, and its .log cannot be written; is there space left?"
+                        : "failed, see its .log");
 }
 
 /* Waits for one to end. */
-static void await(sweep *s)
+static void await(sweep *s, const sigset_t *signals)
 {
   int how = 0;
-  const pid_t process = waitpid(-1, &how, 0);
+  pid_t process;
+  while ((process = waitpid(-1, &how, WNOHANG)) == 0) {
+    if (sph_prog_progress_signal() && !s->stopping) stop_runs(s);
+    sigsuspend(signals);
+  }
   for (int k = 0; k < s->runs && process > 0; k++) {
     sweep_run *r = &s->run[k];
     if (r->process != process) continue;
     r->process = 0;
     r->done = 1;
     r->status = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how);
-    read_report(r);
-    if (!s->o->quiet)
-      fprintf(stderr, "%s: %s\n", r->name,
-              r->status == 0          ? "done"
-              : r->status == PROG_BAR ? "done, misses a bar"
-              : r->unlogged ? "failed, and its .log cannot be written; is there space left?"
-                            : "failed, see its .log");
+    r->unlogged = r->status == UNLOGGED;
+    if (r->unlogged) r->status = PROG_FAILED;
+    sph_prog_sweep_left_read(s, r);
+    tell(s, r);
   }
 }
 
 static int run_all(sweep *s)
 {
-  int running = 0, next = 0, status = PROG_OK;
   const int jobs = s->o->jobs > 0 ? s->o->jobs : 1;
-  signal(SIGINT, on_signal); /* the runs have handlers of their own */
-  signal(SIGTERM, on_signal);
-  while (running > 0 || (next < s->runs && !stop && !status)) {
-    if (running < jobs && next < s->runs && !stop && !status) {
-      status = start(s, &s->run[next++]);
+  int running = 0, next = 0, more, status = PROG_OK;
+  sigset_t signals;
+  hold_signals(&signals);
+  do {
+    while (next < s->runs && s->run[next].done) next++; /* by an earlier sweep */
+    more = next < s->runs && !sph_prog_progress_signal() && !status;
+    if (more && running < jobs) {
+      status = start(&s->run[next++], s, &signals);
       running += !status;
-    } else {
-      await(s);
+    } else if (running > 0) {
+      await(s, &signals);
       running--;
     }
-  }
+  } while (running > 0 || more);
+  release_signals(&signals);
   return status;
 }
 
 static int outcome(const sweep *s)
 {
-  int failed = 0, missed = 0;
+  const int number = sph_prog_progress_signal();
+  int failed = 0, missed = 0, stopped = 0;
   for (int k = 0; k < s->runs; k++) {
-    failed += !s->run[k].done || (s->run[k].status != 0 && s->run[k].status != PROG_BAR);
-    missed += s->run[k].status == PROG_BAR;
+    const sweep_run *r = &s->run[k];
+    stopped += r->done && sph_prog_sweep_stopped(r);
+    missed += r->done && r->status == PROG_BAR;
+    failed += r->done && r->status && r->status != PROG_BAR && !sph_prog_sweep_stopped(r);
   }
-  if (stop) return 128 + (int)stop;
-  if (failed)
-    return sph_prog_error(PROG_FAILED, "%s: %d of %d runs failed", s->directory, failed, s->runs);
-  return missed && !s->o->lenient ? PROG_BAR : PROG_OK;
+  if (failed) sph_prog_error(0, "%s: %d of %d runs failed", s->directory, failed, s->runs);
+  if (number || stopped)
+    sph_prog_error(0, "%s: stopped; the same command goes on from there", s->directory);
+  if (number) return 128 + number;
+  if (failed) return PROG_FAILED;
+  return stopped ? PROG_LIMIT : missed && !s->o->lenient ? PROG_BAR : PROG_OK;
 }
+
+/* The runs, and what is told of them. */
+static int go(sweep *s)
+{
+  const int started = run_all(s), written = sph_prog_sweep_write(s);
+  if (!s->o->quiet) sph_prog_sweep_print(s);
+  return started ? started : written ? written : outcome(s);
+}
+
+/* What an earlier sweep with this command left. */
+static int look(sweep *s)
+{
+  int status = PROG_OK;
+  for (int k = 0; !status && !s->o->force && k < s->runs; k++) {
+    sweep_run *r = &s->run[k];
+    const prog_options o = options_of(s, r);
+    sph_error error = {0};
+    sph_case *c = sph_case_read(o.what, o.sets, o.set, &error);
+    status = c ? sph_prog_sweep_left(s, r, sph_case_text(c))
+               : sph_prog_error(PROG_FAILED, "%s", error.text);
+    sph_case_free(c);
+    if (!status && r->done && !s->o->quiet) fprintf(stderr, "%s: done before\n", r->name);
+  }
+  return status;
+}
+
+/* ---- the command */
 
 /* --output, or the name of the case file and "-sweep". */
 static void name_directory(sweep *s)
@@ -235,6 +287,15 @@ static void name_directory(sweep *s)
     snprintf(s->directory, sizeof s->directory, "%.*s-sweep", length, name);
 }
 
+/* That of an earlier sweep is gone on with. */
+static int take_directory(const sweep *s)
+{
+  char table[3100];
+  snprintf(table, sizeof table, "%s/sweep.csv", s->directory);
+  if (!s->o->force && !access(table, F_OK)) return sph_prog_directory_hold(s->directory);
+  return sph_prog_directory_take(s->directory, s->o->force);
+}
+
 int sph_prog_sweep(const prog_options *o)
 {
   sweep *s = calloc(1, sizeof *s);
@@ -244,15 +305,10 @@ int sph_prog_sweep(const prog_options *o)
   int status = take_keys(s), held = -1;
   if (!status) status = make_runs(s);
   if (!status) status = check(s);
-  if (!status && (held = sph_prog_directory_take(s->directory, o->force)) < 0) status = PROG_FAILED;
-  if (!status) status = run_all(s);
-  if (held >= 0) {
-    const int written = sph_prog_sweep_write(s);
-    if (!o->quiet) sph_prog_sweep_print(s);
-    if (!status) status = written;
-    if (!status) status = outcome(s);
-    close(held);
-  }
+  if (!status && (held = take_directory(s)) < 0) status = PROG_FAILED;
+  if (!status) status = look(s);
+  if (!status) status = go(s);
+  if (held >= 0) close(held);
   free(s);
   return status;
 }

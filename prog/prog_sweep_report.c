@@ -1,6 +1,7 @@
 /* What a sweep tells: a table for people and one for programs, and how errors fall. */
 #include <errno.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,12 +50,18 @@ static double order(const sweep *s, int k, int c)
   return NAN;
 }
 
+int sph_prog_sweep_stopped(const sweep_run *r)
+{
+  return r->status == PROG_LIMIT || r->status == 128 + SIGINT || r->status == 128 + SIGTERM;
+}
+
 static const char *state(const sweep_run *r)
 {
-  return !r->done                ? "not run"
-         : r->status == 0        ? "done"
-         : r->status == PROG_BAR ? "misses a bar"
-                                 : "failed";
+  return !r->done                    ? "not run"
+         : r->status == 0            ? "done"
+         : r->status == PROG_BAR     ? "misses a bar"
+         : sph_prog_sweep_stopped(r) ? "stopped"
+                                     : "failed";
 }
 
 void sph_prog_sweep_print(const sweep *s)

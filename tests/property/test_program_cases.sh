@@ -222,13 +222,50 @@ awk -F, -v a="$(value dx=L_10)" -v b="$(value dx=L_20)" '
   END { exit bad || n != 3 }' channel-sweep/sweep.csv || { sed 's/^/# /' channel-sweep/sweep.csv; false; }
 ok $? "sweep.csv holds distances and their order"
 if command -v gnuplot >/dev/null; then [[ -s channel-sweep/convergence.png ]]; ok $? "its picture"; else ok 0 "its picture # SKIP no gnuplot"; fi
-run 1 "$sphode" sweep channel.yml --vary dx=L/10 "${small[@]}" && grep -q "holds a run that ended or was stopped" err
-ok $? "a sweep that ended is not written over"
+before=$(cksum channel-sweep/dx=L_20/* channel-sweep/dx=L_20.log)
+run 0 "$sphode" sweep channel.yml --vary dx=L/10,L/20 "${small[@]}" && [[ $(grep -c "done before" err) == 2 && $(grep -c "done" out) == 2 ]] &&
+  [[ $before == "$(cksum channel-sweep/dx=L_20/* channel-sweep/dx=L_20.log)" ]] && awk -F, '$8 == "nan"' channel-sweep/sweep.csv | wc -l | grep -qx 0
+ok $? "runs that are done are kept"
+run 1 "$sphode" sweep channel.yml --vary dx=L/20,L/40 --set run.end=0.02s && [[ $before == "$(cksum channel-sweep/dx=L_20/* channel-sweep/dx=L_20.log)" ]] &&
+  grep -q "channel-sweep/dx=L_20/case.yml is not the case of this sweep; .*--force" err && [[ ! -e channel-sweep/dx=L_40 ]]
+ok $? "a sweep of another case is not written over"
 run 3 "$sphode" sweep channel.yml --vary dx=L/10 --vary "terms.gravity.acceleration=[F,0],[2*F,0]" "${small[@]}" -o two -q &&
   [[ ! -s out && -d two/dx=L_10,terms.gravity.acceleration=_F_0_ && $(wc -l <two/sweep.csv) == 3 ]]
 ok $? "all combinations; commas in brackets are of a value; a missed bar is exit status 3"
 run 1 "$sphode" sweep channel.yml --vary dx=1cm,1s -o three && grep -q "spacing: found s, wanted m" err && [[ ! -e three ]]
 ok $? "a value that is wrong is told before any run"
+# Stopped where the second of three runs is on its way; then the same command.  What it leaves is that of a sweep without this.
+three=(sweep channel.yml --vary dx=L/10,L/20,L/21 --set run.end=6s --set output.series=10ms --set output.snapshots=1s --lenient)
+stop() { # NAME SIGNAL STATUS WHOM OPTION...: - before the process: its group is told
+  local name=$1 signal=$2 status=$3 whom=$4 tries=0 at=0.02
+  setsid "$sphode" "${three[@]}" -o "$name" "${@:5}" >out 2>err &
+  local job=$!
+  until [[ $(wc -l 2>/dev/null <"$name/dx=L_20/series.csv") -gt 12 || $((tries++)) -gt 3000 ]]; do sleep $at; done 2>/dev/null
+  kill -s "$signal" -- "$whom$job"
+  wait $job
+  [[ $? == "$status" ]] && ls "$name"/dx=L_20/checkpoint_*.hdf >found && grep -q "^dx=L_20  *stopped" out && grep -q "^dx=L_20: stopped" err &&
+    grep -q '"error": "stopped on request' "$name/dx=L_20/summary.json" && grep -q "$name: stopped; the same command goes on" err && ! grep -q failed out err && grep -q "^dx=L_20,L/20,$status," "$name/sweep.csv" ||
+    { sed 's/^/# /' out err; false; }
+}
+again() { # NAME: goes on, and leaves what `straight` has
+  local file
+  run 0 "$sphode" "${three[@]}" -o "$1" || return 1
+  for file in straight/dx=*/*.hdf straight/dx=*/*.series straight/dx=*/series.csv; do
+    [[ $file == */checkpoint_* ]] && continue
+    if [[ $file == */snapshot_* ]]; then [[ -s ${file/straight/$1} ]]; else cmp "$file" "${file/straight/$1}"; fi || return 1
+  done
+  cut -d, -f1-6,8- straight/sweep.csv | cmp - <(cut -d, -f1-6,8- "$1/sweep.csv")
+}
+run 0 "$sphode" "${three[@]}" -o straight -q && stop term TERM 143 "" && grep -q "^dx=L_10  *done" out && grep -q "^dx=L_21  *not run" out &&
+  before=$(cksum term/dx=L_10/*)
+ok $? "SIGTERM stops a sweep behind a checkpoint of its run"
+again term && [[ $before == "$(cksum term/dx=L_10/*)" ]] && grep -q "^dx=L_10: done before" err && grep -q "going on from" term/dx=L_20.log
+ok $? "the same command keeps what was done, goes on with what was stopped, and begins the rest"
+stop group INT 130 - && again group
+ok $? "SIGINT to all of its processes, as by Ctrl-C, which its runs hear twice"
+stop two TERM 143 "" --jobs 2 && again two
+ok $? "two runs at a time"
+
 good=0
 for bad in dx dx= =1 dx=1,,2; do run 2 "$sphode" sweep channel.yml --vary $bad && grep -q "^sphode: .*--vary $bad" err || good=1; done
 run 2 "$sphode" sweep channel.yml && grep -q "sweep wants --vary" err || good=1
