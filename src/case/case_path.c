@@ -4,10 +4,12 @@
 #include <string.h>
 #include <unistd.h>
 
-/* directory/files/NAME with + in place of /, the directory being `length` letters long. */
+/* directory/files/NAME with + in place of /, and in front of a dot, which would hide it; the
+ * directory is `length` letters long. */
 static int kept_path(const char *directory, int length, const char *name, char path[SPH_CASE_PATH])
 {
-  const int n = snprintf(path, SPH_CASE_PATH, "%.*sfiles/", length, directory);
+  const int n =
+      snprintf(path, SPH_CASE_PATH, "%.*sfiles/%s", length, directory, name[0] == '.' ? "+" : "");
   const size_t left = strlen(name);
   if (n + (int)left >= SPH_CASE_PATH) return 0;
   for (size_t k = 0; k <= left; k++) path[(size_t)n + k] = (char)(name[k] == '/' ? '+' : name[k]);

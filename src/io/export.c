@@ -160,7 +160,8 @@ int sph_export(const sph_export_def *def, sph_error *error)
   int status = check(&e);
   if (status || !def) return status;
   const int folder = stat(def->path, &info) == 0 && S_ISDIR(info.st_mode);
-  int count = folder ? export_all(&e) : export_one(&e, def->path, 0);
+  const long number = sph_frames_number(def->path);
+  int count = folder ? export_all(&e) : export_one(&e, def->path, number > 0 ? number : 0);
   if (!folder && !count) count = 1;
   for (int part = 0; part < SPH_PARTS; part++) {
     status = count > 0 ? write_index(&e, part) : SPH_OK;

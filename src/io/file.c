@@ -43,13 +43,14 @@ int sph_file_make_directory(const char *path, sph_error *error)
   return status;
 }
 
-static int write_all(int fd, const char *data, size_t size)
+int sph_file_write(int fd, const void *data, size_t size)
 {
+  const char *at = data;
   while (size) {
-    ssize_t done = write(fd, data, size);
+    ssize_t done = write(fd, at, size);
     if (done < 0 && errno == EINTR) continue;
     if (done < 0) return -1;
-    data += done;
+    at += done;
     size -= (size_t)done;
   }
   return 0;
@@ -76,7 +77,7 @@ int sph_file_replace(const char *path, const void *data, size_t size, sph_error 
   if (fd < 0) {
     why = errno;
   } else {
-    if (write_all(fd, data, size) != 0 || fsync(fd) != 0) why = errno;
+    if (sph_file_write(fd, data, size) != 0 || fsync(fd) != 0) why = errno;
     if (close(fd) != 0 && !why) why = errno;
     if (!why && rename(temporary, path) != 0) why = errno;
     if (why) unlink(temporary);

@@ -9,10 +9,10 @@
 #include "file.h"
 #include "memory.h"
 
-/* The number in a file name "snapshot_0012.hdf", or -1. */
-static long number_of(const char *name)
+long sph_frames_number(const char *path)
 {
   char back[64];
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
   if (strncmp(name, "snapshot_", 9) != 0) return -1;
   long number = strtol(name + 9, NULL, 10);
   snprintf(back, sizeof back, "snapshot_%04ld.hdf", number);
@@ -33,7 +33,7 @@ static int count_or_fill(const char *directory, long *number, int room, sph_erro
                          directory ? directory : "(none)", strerror(directory ? errno : ENOENT));
   int count = 0;
   for (struct dirent *entry; (entry = readdir(entries));) {
-    long found = number_of(entry->d_name);
+    long found = sph_frames_number(entry->d_name);
     if (found < 0 || (number && count >= room)) continue;
     if (number) number[count] = found;
     count++;

@@ -5,6 +5,8 @@
 
 /* Their numbers in rising order, *number[count] (sph_memory_free); returns count, < 0: a status. */
 int sph_frames_list(const char *directory, long **number, sph_error *error);
+/* 12 of ".../snapshot_0012.hdf"; -1: another name. */
+long sph_frames_number(const char *path);
 /* path = directory/snapshot_0012.hdf */
 int sph_frames_path(char path[4096], const char *directory, long number, sph_error *error);
 

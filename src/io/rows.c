@@ -19,9 +19,8 @@ int sph_rows_append(sph_rows *rows, sph_text *row, sph_error *error)
 {
   int status = sph_error_set(error, row->error.status, "%s", row->error.text);
   off_t end = lseek(rows->fd, 0, SEEK_END);
-  ssize_t done = status == SPH_OK ? write(rows->fd, row->data, row->length) : 0;
-  if (status == SPH_OK && done != (ssize_t)row->length) {
-    int why = done < 0 ? errno : ENOSPC;
+  if (status == SPH_OK && sph_file_write(rows->fd, row->data, row->length) != 0) {
+    const int why = errno;
     if (ftruncate(rows->fd, end) != 0) errno = why; /* a device; told is why it did not fit */
     status =
         sph_error_set(error, SPH_ERR_FILE, "cannot write to %s: %s", rows->path, strerror(why));

@@ -21,9 +21,16 @@ static const char *const vtk_names[SPH_PARTS] = {"VTKHDF", "Walls"};
 static const char *const part_kinds[SPH_PARTS] = {"fluid", "wall"};
 
 static const char *const dataset_names[][2] = {
-    {"position", "Coordinates"},   {"velocity", "Velocities"},   {"mass", "Masses"},
-    {"density", "Density"},        {"energy", "InternalEnergy"}, {"pressure", "Pressure"},
+    {"position", "Coordinates"},
+    {"velocity", "Velocities"},
+    {"mass", "Masses"},
+    {"density", "Density"},
+    {"energy", "InternalEnergy"},
+    {"pressure", "Pressure"},
     {"sound_speed", "SoundSpeed"},
+    {"id", "ParticleIDs"},
+    {"group", "Group"},
+    {"smoothing_length", "SmoothingLength"},
 };
 
 const char *sph_snapshot_dataset(const char *field)
@@ -31,6 +38,13 @@ const char *sph_snapshot_dataset(const char *field)
   for (size_t k = 0; k < sizeof dataset_names / sizeof *dataset_names; k++)
     if (!strcmp(field, dataset_names[k][0])) return dataset_names[k][1];
   return field; /* a new field is written under its own name */
+}
+
+const char *sph_snapshot_field(const char *dataset)
+{
+  for (size_t k = 0; k < sizeof dataset_names / sizeof *dataset_names; k++)
+    if (!strcmp(dataset, dataset_names[k][1])) return dataset_names[k][0];
+  return dataset;
 }
 
 typedef struct writer {

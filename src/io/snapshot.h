@@ -36,5 +36,7 @@ int sph_snapshot_read_time(const char *path, double *time, sph_error *error);
 
 /* The dataset that holds a field of the table ("velocity": "Velocities"). */
 const char *sph_snapshot_dataset(const char *field);
+/* And back. */
+const char *sph_snapshot_field(const char *dataset);
 
 #endif

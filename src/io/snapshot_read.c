@@ -5,7 +5,9 @@
 #include "h5.h"
 #include "memory.h"
 #include "snapshot.h"
-#include "sphode/field.h"
+#include "table.h"
+
+static const char *const part_names[SPH_PARTS] = {"PartType0", "PartType1"};
 
 typedef struct reader {
   hid_t file;
@@ -76,14 +78,13 @@ static void reduce(double *values, long n, int columns, int component)
 
 static void read_part(reader *r, int part, const char *field, sph_snapshot *s)
 {
-  static const char *const names[SPH_PARTS] = {"PartType0", "PartType1"};
   char name[64];
   int columns = 1, component = split(field, name);
-  hid_t group = s->n[part] > 0 ? H5Gopen2(r->file, names[part], H5P_DEFAULT) : -1;
+  hid_t group = s->n[part] > 0 ? H5Gopen2(r->file, part_names[part], H5P_DEFAULT) : -1;
   if (group < 0) return;
   s->x[part] = read_array(r, group, "Coordinates", s->n[part], &columns);
   if (!s->x[part] || columns != 3)
-    sph_error_set(r->error, SPH_ERR_FILE, "%s: %s has no coordinates", r->path, names[part]);
+    sph_error_set(r->error, SPH_ERR_FILE, "%s: %s has no coordinates", r->path, part_names[part]);
   s->value[part] = read_array(r, group, sph_snapshot_dataset(name), s->n[part], &columns);
   read_unit(group, sph_snapshot_dataset(name), s->unit, sizeof s->unit);
   if (s->dim == 1 && component < 0) component = 0; /* its sign says more than its magnitude */
@@ -116,18 +117,13 @@ static void read_header(reader *r, sph_snapshot *s)
   for (int part = 0; part < SPH_PARTS; part++) s->n[part] = count[part];
 }
 
-static void check_field(reader *r, const char *field, sph_snapshot *s)
+static void check_field(reader *r, const char *field, const sph_snapshot *s)
 {
-  char name[64], known[300] = "";
-  const sph_field_info *info;
-  split(field, name);
   if (s->value[SPH_FLUIDS] || s->value[SPH_WALLS]) return;
-  for (int k = 0; (info = sph_field_get(k)); k++) {
-    size_t used = strlen(known);
-    snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", info->name);
-  }
-  sph_error_set(r->error, SPH_ERR_ARGUMENT, "%s: no field \"%.60s\"; %s are known", r->path, field,
-                known);
+  hid_t part =
+      H5Gopen2(r->file, part_names[s->n[SPH_FLUIDS] > 0 ? SPH_FLUIDS : SPH_WALLS], H5P_DEFAULT);
+  sph_table_unknown(part, r->path, field, r->error);
+  if (part >= 0) H5Gclose(part);
 }
 
 int sph_snapshot_read(const char *path, const char *field, sph_snapshot *snapshot, sph_error *error)

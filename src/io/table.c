@@ -25,20 +25,6 @@ int sph_table_listed(const char *list, const char *name)
   return 0;
 }
 
-void sph_table_name(const char *dataset, char name[SPH_TABLE_NAME])
-{
-  static const char *const more[][2] = {{"id", "ParticleIDs"},
-                                        {"group", "Group"},
-                                        {"smoothing_length", "SmoothingLength"}};
-  const sph_field_info *info;
-  snprintf(name, SPH_TABLE_NAME, "%.63s", dataset);
-  for (int k = 0; (info = sph_field_get(k)); k++)
-    if (!strcmp(sph_snapshot_dataset(info->name), dataset))
-      snprintf(name, SPH_TABLE_NAME, "%s", info->name);
-  for (size_t k = 0; k < sizeof more / sizeof *more; k++)
-    if (!strcmp(more[k][1], dataset)) snprintf(name, SPH_TABLE_NAME, "%s", more[k][0]);
-}
-
 /* Sizes of a dataset of numbers; 0: it is none of particles. */
 static int shape(hid_t set, hsize_t size[2], int *whole)
 {
@@ -82,9 +68,8 @@ static int take(reader *r, hid_t set, const char *name)
 static herr_t visit(hid_t part, const char *dataset, const H5L_info_t *info, void *ctx)
 {
   reader *r = ctx;
-  char name[SPH_TABLE_NAME];
+  const char *name = sph_snapshot_field(dataset);
   (void)info;
-  sph_table_name(dataset, name);
   if (r->wanted && strcmp(name, "position") != 0 && !sph_table_listed(r->wanted, name)) return 0;
   hid_t set = H5Dopen2(part, dataset, H5P_DEFAULT);
   if (set < 0) return 0; /* a group */
@@ -104,26 +89,28 @@ static int order(const void *a, const void *b)
   return strcmp(x->name, y->name);
 }
 
+static herr_t add_word(hid_t part, const char *dataset, const H5L_info_t *info, void *words)
+{
+  (void)part, (void)info;
+  sph_words_add(words, sph_snapshot_field(dataset));
+  return 0;
+}
+
+int sph_table_unknown(hid_t part, const char *path, const char *field, sph_error *error)
+{
+  sph_words words = {.wanted = field};
+  if (part >= 0) H5Literate(part, H5_INDEX_NAME, H5_ITER_INC, NULL, add_word, &words);
+  return sph_error_set(error, SPH_ERR_ARGUMENT, "%s: no field \"%.60s\"; %sit has: %s", path, field,
+                       words.nearest, words.known);
+}
+
 /* Which of the wanted fields is in none of the particles. */
 static int missing(const reader *r)
 {
   char word[SPH_TABLE_NAME];
   for (const char *at = r->wanted; at && *(at += strspn(at, " ,")); at += strcspn(at, " ,")) {
     snprintf(word, sizeof word, "%.*s", (int)strcspn(at, " ,"), at);
-    sph_words words = {.wanted = word};
-    if (sph_table_find(r->table, word)) continue;
-    hsize_t links = 0;
-    H5G_info_t group;
-    if (H5Gget_info(r->part, &group) >= 0) links = group.nlinks;
-    for (hsize_t k = 0; k < links; k++) {
-      char dataset[256] = "", name[SPH_TABLE_NAME];
-      H5Lget_name_by_idx(r->part, ".", H5_INDEX_NAME, H5_ITER_INC, k, dataset, sizeof dataset,
-                         H5P_DEFAULT);
-      sph_table_name(dataset, name);
-      sph_words_add(&words, name);
-    }
-    return sph_error_set(r->error, SPH_ERR_ARGUMENT, "%s: no field \"%s\"; %sit has: %s", r->path,
-                         word, words.nearest, words.known);
+    if (!sph_table_find(r->table, word)) return sph_table_unknown(r->part, r->path, word, r->error);
   }
   return SPH_OK;
 }

@@ -1,7 +1,7 @@
 /* table.h -- the particles of a file, field by field: what export writes and import reads. */
 #ifndef SPH_TABLE_H
 #define SPH_TABLE_H
-#include "sphode/base.h"
+#include "h5.h"
 
 enum { SPH_TABLE_FIELDS = 48, SPH_TABLE_NAME = 64 };
 
@@ -30,8 +30,9 @@ int sph_table_read(sph_table *table, const char *path, int part, const char *wan
 /* The same of VTK's XML (.vtu, .vtp): their points and the wanted of the data at these.  Without
  * Expat and zlib: SPH_ERR_UNBUILT, what to install. */
 int sph_table_vtu_read(sph_table *table, const char *path, const char *wanted, sph_error *error);
-/* The library's name of a dataset ("Velocities": "velocity"). */
-void sph_table_name(const char *dataset, char name[SPH_TABLE_NAME]);
+/* The error about a field that is not among those of an open group of particles (< 0: it has none).
+ */
+int sph_table_unknown(hid_t part, const char *path, const char *field, sph_error *error);
 /* Is the name among the words of the list? */
 int sph_table_listed(const char *list, const char *name);
 /* NULL: there is none. */

@@ -11,6 +11,7 @@
 #include "config.h"
 #include "file.h"
 #include "memory.h"
+#include "snapshot.h"
 #include "table.h"
 #include "vtu_array.h"
 
@@ -117,7 +118,7 @@ static void split(const char *title, array *a)
   int n = (int)(open ? (size_t)(open - title) : strlen(title));
   while (n > 0 && title[n - 1] == ' ') n--;
   snprintf(name, sizeof name, "%.*s", n, title);
-  sph_table_name(name, a->name);
+  snprintf(a->name, sizeof a->name, "%s", sph_snapshot_field(name));
   for (char *to = a->unit; close && ++open < close && to + 1 < a->unit + sizeof a->unit;) {
     const int per = !strncmp(open, " per ", 5);
     *to++ = per ? '/' : *open;

@@ -151,11 +151,14 @@ fails "an unknown key in --set" "spacng" check --set "spacng=1 m" "$dam"
 run 0 "$sphode" run "$dam" "${small[@]}" -o d1 && grep -q "Martin & Moyce" out && grep -q "^results *d1$" out &&
   [[ -s d1/case.yml && -s d1/summary.json && -s d1/series.csv && -s d1/snapshot_0000.hdf && -s d1/snapshot_0002.hdf ]]
 ok $? "a small run leaves case, summary, series and snapshots"
-run 0 "$sphode" check d1/case.yml && [[ -s d1/files/..+data+koshizuka_oka_1996.csv ]]
+run 0 "$sphode" check d1/case.yml && ls d1/files | grep -qx '+..+data+koshizuka_oka_1996.csv'
 ok $? "the case that was kept can be read again, with the tables that were"
 if command -v gnuplot >/dev/null; then
   [[ -s d1/frames.png && -s d1/compare_0.png ]] && run 0 "$sphode" plot d1 --field pressure --frames 2 && grep -q "d1/frames.png" out
   ok $? "its pictures"
+  run 1 "$sphode" plot d1 --field temperature && grep -q 'no field "temperature"; it has: .*density, .*velocity' err &&
+    run 1 "$sphode" plot d1 --field preszure && grep -q "no field \"preszure\"; did you mean 'pressure'" err && run 0 "$sphode" plot d1 --field id
+  ok $? "a field that a run has not is told with those that it has"
   rm d1/compare_0.png
   run 0 "$sphode" plot d1 && grep -q "d1/compare_0.png" out && [[ -s d1/compare_0.png ]]
   ok $? "comparisons again"
@@ -165,8 +168,11 @@ if command -v gnuplot >/dev/null; then
     run 2 "$sphode" plot d1 --over time && grep -q "want --series" err
   ok $? "curves of a table"
 else
-  for what in "its pictures" "comparisons again" "curves of a table"; do ok 0 "$what # SKIP no gnuplot"; done
+  for what in "its pictures" "a field that a run has not" "comparisons again" "curves of a table"; do ok 0 "$what # SKIP no gnuplot"; done
 fi
+run 0 "$sphode" export d1/snapshot_0002.hdf --csv -o one && [[ -s one/snapshot_0002.csv && -s one/walls_0002.csv && ! -e one/snapshot_0000.csv ]] &&
+  grep -q "^snapshot_0002.csv," one/times.csv
+ok $? "an export of one snapshot has its number"
 before=$(cksum d1/* | cksum)
 fails "a run that ended is not written over" "d1 holds a run that ended or was stopped" run "$dam" "${small[@]}" -o d1
 [[ $before == "$(cksum d1/* | cksum)" ]]
@@ -206,4 +212,30 @@ stopped() { # signal, status
 }
 stopped INT 130
 stopped TERM 143
+
+# ---- a page while it goes
+
+"$sphode" run "$dam" "${long[@]}" -o live -q --live 2>err &
+job=$! tries=0
+until [[ -s live/series.csv || $((tries++)) -gt 600 ]] || ! kill -0 $job 2>/dev/null; do sleep 0.1; done
+if grep -q "built without libmicrohttpd" err; then
+  for what in "units of the page" "a port that is taken" "... before a restart"; do ok 0 "$what # SKIP no libmicrohttpd"; done
+else
+  read -r port token < <(sed -n 's|^live  *http://127.0.0.1:\([0-9]*\)/\([0-9a-f]*\)/$|\1 \2|p' err)
+  page() { # what the page has of the run
+    exec 3<>"/dev/tcp/127.0.0.1/$port" && printf 'GET /%s/frame HTTP/1.0\r\n\r\n' "$token" >&3 && tr -d '\0' <&3
+    exec 3>&-
+  }
+  tries=0
+  until page 2>/dev/null | grep -aq '"fields"' || ((tries++ > 100)); do sleep 0.1; done
+  page | grep -aq '\["mass","kg/m"\]'
+  ok $? "units of the page are those of 2D"
+  before=$(cksum d1/* TERM/* | cksum)
+  fails "a port that is taken" "cannot listen on 127.0.0.1, port $port: Address already in use" run "$dam" "${small[@]}" -o taken "--live=$port"
+  run 1 "$sphode" run "$dam" "${small[@]}" -o d1 --force "--live=$port" && run 1 "$sphode" restart TERM "--live=$port" &&
+    [[ ! -e taken && $before == "$(cksum d1/* TERM/* | cksum)" ]]
+  ok $? "... is told before anything is written"
+fi
+kill $job 2>/dev/null
+wait $job
 echo 1..$count
