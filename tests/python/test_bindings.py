@@ -98,6 +98,22 @@ def a_case_has_the_bits_of_the_program():
 
 
 @test
+def results_are_sequences_and_mappings():
+    run = sphode.Run("program")
+    last = run[-1]
+    assert list(last) == ["gas"] and len(last) == 1 and "gas" in last and 0 not in last and "air" not in last
+    assert [name for name, gas in last.items()] == ["gas"] and "gas" in repr(last)
+    assert [s.time for s in run] == list(run.times) and [s.time for s in run[-2:]] == list(run.times[-2:])
+    raised(IndexError, run.__getitem__, len(run))
+    for there, what, missing in ((last, "gas", "air"), (last["gas"], "velocity", "temperature"),
+                                 (run.table(), "kinetic", "front"), (run.units(), "kinetic", "front")):
+        said = str(raised(KeyError, there.__getitem__, missing))
+        assert what in there and missing not in there and there.get(missing) is None
+        assert f"no group '{missing}'" in said or f"no '{missing}'" in said, said
+        assert what in said and "program" in said, said
+
+
+@test
 def views_are_the_memory_of_the_library():
     sim, water = column()
     x, y = water["position"]
