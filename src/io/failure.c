@@ -92,10 +92,14 @@ static int accelerations(table *t)
   return t->error.status;
 }
 
+/* Does a group have it?  An energy: does one integrate it; else it is zero. */
 static int has(const sph_sim *sim, const char *field)
 {
+  const int energy = !strcmp(field, "energy");
   for (int g = 0; g < sim->groups; g++)
-    if (sph_group_read(sim->group[g], field, 0)) return 1;
+    if (energy ? sph_group_data_energy(sim->group[g]) >= 0
+               : sph_group_read(sim->group[g], field, 0) != NULL)
+      return 1;
   return 0;
 }
 
@@ -129,7 +133,7 @@ static void add_row(table *t, long r)
     sph_text_add(&t->text, "group,id,distance [m]");
   for (int k = 0; (info = sph_field_get(k)); k++) add_field(t, info, row);
   for (int k = 0; k < t->terms; k++)
-    for (int d = 0; d < sim->dim; d++)
+    for (int d = 0; sph_sim_power_pushes(sim, k) && d < sim->dim; d++)
       if (row)
         sph_text_add(&t->text, ",%.15g", t->a[((long)k * t->n + r) * sim->dim + d]);
       else

@@ -47,6 +47,14 @@ const char *sph_sim_power_term(const sph_sim *sim, int k)
   return sim && k >= 0 && call ? call->name : NULL;
 }
 
+int sph_sim_power_pushes(const sph_sim *sim, int k)
+{
+  const sph_called_term *call;
+  const unsigned bits = find(sim, k, &call);
+  return call || (bits & ~(unsigned)(SPH_CONTINUITY | SPH_DIFFUSION | SPH_CONDUCTIVITY |
+                                     SPH_CONDUCTION)) != 0;
+}
+
 /* (du/drho)_T by central differences: linear in 1/rho or constant for what is built in. */
 static double slope_at_T(const sph_eos *eos, double rho, double T)
 {
