@@ -9,6 +9,8 @@
 
 #include "prog_sweep.h"
 
+enum { GREY = 7 }; /* of the palette of curves */
+
 static int good(const sweep_run *r) { return r->done && (r->status == 0 || r->status == PROG_BAR); }
 
 /* The first run that tells its comparisons: all have the same. */
@@ -118,6 +120,20 @@ static int close_table(const sweep *s, const char *name, FILE *file)
   return sph_prog_error(PROG_FAILED, "cannot write %s: %s", path, strerror(why));
 }
 
+/* Comparison c as the name of a column: "NAME (NORM)", and its number where another has that. */
+enum { COLUMN = 120 };
+static void name_column(const sweep_run *m, int c, char name[COLUMN])
+{
+  int same = 0;
+  for (int before = 0; before < c; before++)
+    same |=
+        !strcmp(m->of[before].name, m->of[c].name) && !strcmp(m->of[before].norm, m->of[c].norm);
+  const int n = snprintf(name, COLUMN, "%s (%s)", m->of[c].name, m->of[c].norm);
+  if (same) snprintf(name + n, COLUMN - (size_t)n, " %d", c);
+  for (char *at = name; *at; at++)
+    *at = *at == ',' ? ';' : *at == '[' ? '(' : *at == ']' ? ')' : *at;
+}
+
 static int write_runs(const sweep *s)
 {
   const sweep_run *m = model(s);
@@ -127,9 +143,9 @@ static int write_runs(const sweep *s)
   for (int k = 0; k < s->keys; k++) fprintf(file, ",%s", s->key[k].key);
   fprintf(file, ",status,spacing [m],particles,steps,wall [s]");
   for (int c = 0; m && c < m->compared; c++) {
-    fputc(',', file);
-    put_cell(file, m->of[c].name);
-    fprintf(file, " (%s),order %d", m->of[c].norm, c);
+    char name[COLUMN];
+    name_column(m, c, name);
+    fprintf(file, ",%s,order %d", name, c);
   }
   fputc('\n', file);
   for (int k = 0; k < s->runs; k++) {
@@ -162,50 +178,80 @@ static int drawn(const sweep *s, int c)
   return n > 1 && s->keys == 1;
 }
 
+/* The coarsest run, where errors are told over the spacing: slopes begin there; -1: they are not. */
+static int coarsest(const sweep *s)
+{
+  int found = -1;
+  for (int k = 0; k < s->runs && by_spacing(s); k++)
+    if (good(&s->run[k]) && (found < 0 || s->run[k].spacing > s->run[found].spacing)) found = k;
+  return found;
+}
+
+/* The first curve and where it began, had it order p. */
+static double slope(const sweep *s, int k, int p)
+{
+  const int begin = coarsest(s);
+  int first = 0;
+  while (!drawn(s, first)) first++;
+  return s->run[begin].of[first].value * pow(s->run[k].spacing / s->run[begin].spacing, p);
+}
+
 static int write_errors(const sweep *s, const sweep_run *m)
 {
   FILE *file = open_table(s, "convergence.csv");
+  const int slopes = coarsest(s) >= 0;
+  char name[COLUMN];
   if (!file) return PROG_FAILED;
   fprintf(file, "%s", by_spacing(s) ? "spacing [m]" : s->key[0].key);
-  for (int c = 0; c < m->compared; c++)
-    if (drawn(s, c)) fprintf(file, ",distance%d", c);
-  fputc('\n', file);
+  for (int c = 0; c < m->compared; c++) {
+    name_column(m, c, name);
+    if (drawn(s, c)) fprintf(file, ",%s", name);
+  }
+  fputs(slopes ? ",order 1,order 2\n" : "\n", file);
   for (int k = 0; k < s->runs; k++) {
     if (!good(&s->run[k])) continue;
     fprintf(file, "%.9g", abscissa(s, k));
     for (int c = 0; c < m->compared; c++)
       if (drawn(s, c)) fprintf(file, ",%.9g", s->run[k].of[c].value);
+    for (int p = 1; slopes && p <= 2; p++) fprintf(file, ",%.9g", slope(s, k, p));
     fputc('\n', file);
   }
   return close_table(s, "convergence.csv", file);
 }
 
-static int draw(const sweep *s, const sweep_run *m)
+/* What the curves fill. */
+static void bounds(const sweep *s, const sweep_run *m, double lo[2], double hi[2])
 {
-  char csv[4000], png[4000], column[SWEEP_COMPARED][20];
-  sph_plot_curve curve[SWEEP_COMPARED];
-  double lo[2] = {INFINITY, INFINITY}, hi[2] = {0, 0};
-  int n = 0;
-  const char *slash = strrchr(s->o->what, '/');
-  snprintf(csv, sizeof csv, "%s/convergence.csv", s->directory);
-  snprintf(png, sizeof png, "%s/convergence.png", s->directory);
-  for (int c = 0; c < m->compared; c++) {
-    if (!drawn(s, c)) continue;
-    snprintf(column[n], sizeof column[n], "distance%d", c);
-    curve[n] = (sph_plot_curve){.csv = csv,
-                                .x = by_spacing(s) ? "spacing" : s->key[0].key,
-                                .y = column[n],
-                                .x_scale = 1,
-                                .y_scale = 1,
-                                .label = m->of[c].name,
-                                .points = 2};
-    for (int k = 0; k < s->runs; k++) {
+  for (int c = 0; c < m->compared; c++)
+    for (int k = 0; drawn(s, c) && k < s->runs; k++) {
       if (!good(&s->run[k])) continue;
       lo[0] = fmin(lo[0], abscissa(s, k)), hi[0] = fmax(hi[0], abscissa(s, k));
       lo[1] = fmin(lo[1], s->run[k].of[c].value), hi[1] = fmax(hi[1], s->run[k].of[c].value);
     }
-    n++;
+}
+
+static int draw(const sweep *s, const sweep_run *m)
+{
+  char csv[4000], png[4000], column[SWEEP_COMPARED][COLUMN];
+  sph_plot_curve curve[SWEEP_COMPARED + 2]; /* and slopes */
+  double lo[2] = {INFINITY, INFINITY}, hi[2] = {0, 0};
+  int n = 0;
+  const char *slash = strrchr(s->o->what, '/'), *x = by_spacing(s) ? "spacing" : s->key[0].key;
+  snprintf(csv, sizeof csv, "%s/convergence.csv", s->directory);
+  snprintf(png, sizeof png, "%s/convergence.png", s->directory);
+  for (int p = 1; coarsest(s) >= 0 && p <= 2; p++) /* behind the curves */
+    curve[n++] = (sph_plot_curve){.csv = csv,
+                                  .x = x,
+                                  .y = p == 1 ? "order 1" : "order 2",
+                                  .label = p == 1 ? "orders 1 and 2" : "",
+                                  .colour = GREY};
+  for (int c = 0, colour = 1; c < m->compared; c++) {
+    if (!drawn(s, c)) continue;
+    name_column(m, c, column[c]);
+    curve[n++] =
+        (sph_plot_curve){.csv = csv, .x = x, .y = column[c], .points = 2, .colour = colour++};
   }
+  bounds(s, m, lo, hi);
   const sph_plot_def def = {.title = slash ? slash + 1 : s->o->what,
                             .x_label = by_spacing(s) ? "spacing [m]" : s->key[0].key,
                             .y_label = "distance from the reference",

@@ -1,6 +1,7 @@
 #include "case_curve.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "memory.h"
@@ -240,4 +241,14 @@ int sph_case_curve_compare(const sph_case_curve *run, const sph_case_curve *refe
   sph_memory_free(p.x);
   sph_memory_free(integral);
   return status;
+}
+
+void sph_case_curve_label(char label[SPH_CASE_LABEL], const char *what, double scale,
+                          const char *unit)
+{
+  if (scale == 1)
+    snprintf(label, SPH_CASE_LABEL, *unit ? "%.39s [%s]" : "%.39s", what, unit);
+  else
+    snprintf(label, SPH_CASE_LABEL, *unit ? "%.39s / (%.3g %s)" : "%.39s / %.3g", what, scale,
+             unit);
 }

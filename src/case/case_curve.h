@@ -40,6 +40,11 @@ void sph_case_curve_integrate(const sph_case_curve *run, double *integral);
 double sph_case_curve_norm(const char *norm, long n, const double *weight, const double *a,
                            const double *b);
 
+enum { SPH_CASE_LABEL = 80 };
+/* "density [kg/m^3]"; of what is drawn in a scale of its own "velocity / (1e-06 m/s)". */
+void sph_case_curve_label(char label[SPH_CASE_LABEL], const char *what, double scale,
+                          const char *unit);
+
 /* Norms that are of a run alone, and compared with one number: drift, period, decay. */
 int sph_case_curve_of_one(const char *norm);
 /* Period and rate of decay of a run that swings around zero, inside the window, or rate of decay of

@@ -481,19 +481,9 @@ static void add_curve(const comparer *a, picture *p, const char *path, int exact
                                  .colour = exact ? 7 : 0};
 }
 
-/* "density [kg/m^3]"; of one that is drawn in a unit of its own "velocity / (1e-06 m/s)". */
-static void write_label(char label[2 * NAME], const char *what, double scale, const quantity *q)
-{
-  const char *unit = unit_of(q);
-  if (scale == 1)
-    snprintf(label, 2 * NAME, *unit ? "%.39s [%s]" : "%.39s", what, unit);
-  else
-    snprintf(label, 2 * NAME, *unit ? "%.39s / (%.3g %s)" : "%.39s / %.3g", what, scale, unit);
-}
-
 int sph_case_profile_plot(const comparer *a, const char *png)
 {
-  char path[SPH_PATH], x_label[2 * NAME], y_label[2 * NAME];
+  char path[SPH_PATH], x_label[SPH_CASE_LABEL], y_label[SPH_CASE_LABEL];
   double times[TIMES] = {sph_case_end(a->c)}, scale = get_number(a->node, "value_scale", 1);
   quantity q = quantity_of(a);
   int given = times_of(a, times), count = given > 0 ? given : 1, axis = along(a);
@@ -503,9 +493,9 @@ int sph_case_profile_plot(const comparer *a, const char *png)
   for (int exact = 0; exact < 2; exact++)
     for (int k = 0; k < count; k++)
       for (int c = 0; c < q.components; c++) add_curve(a, p, path, exact, k, c, times[k]);
-  write_label(y_label, get_text(a->node, "quantity", ""), scale, &q);
+  sph_case_curve_label(y_label, get_text(a->node, "quantity", ""), scale, unit_of(&q));
   if (axis < 0)
-    write_label(x_label, "exact", scale, &q);
+    sph_case_curve_label(x_label, "exact", scale, unit_of(&q));
   else
     snprintf(x_label, sizeof x_label, "%c [m]", 'x' + axis);
   sph_plot_def def = {.title = get_text(a->node, "name", NULL),

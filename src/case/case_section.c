@@ -13,6 +13,7 @@
 #include "frames.h"
 #include "memory.h"
 #include "snapshot.h"
+#include "sphode/field.h"
 #include "sphode/kernel.h"
 #include "sphode/operator.h"
 #include "sphode/output.h"
@@ -225,15 +226,30 @@ int sph_case_section_compare(const comparer *a, sph_case_distance *d, char note[
   return status;
 }
 
+/* "m/s" of "velocity_x"; "": of a scalar of a term. */
+static const char *unit_of(const char *quantity)
+{
+  char name[64];
+  snprintf(name, sizeof name, "%s", quantity);
+  const size_t n = strlen(name);
+  if (sph_field_find(name) < 0 && n > 2 && name[n - 2] == '_') name[n - 2] = '\0';
+  const int number = sph_field_find(name);
+  return number < 0 ? "" : sph_field_get(number)->unit;
+}
+
 int sph_case_section_plot(const comparer *a, const char *png)
 {
-  char path[SPH_PATH];
+  char path[SPH_PATH], x_label[SPH_CASE_LABEL], y_label[SPH_CASE_LABEL];
+  const char *quantity = get_text(a->node, "quantity", "");
   int status = table_path(a, path);
   sph_plot_curve curves[] = {{.csv = path, .x = "at", .y = "run", .label = "this run", .points = 2},
                              {.csv = path, .x = "at", .y = "reference", .points = 1}};
   curves[1].label = get_text(a->node, "source", "reference");
+  sph_case_curve_label(x_label, get_text(a->kind, "axis", "x"), get_number(a->kind, "length", 1),
+                       "m");
+  sph_case_curve_label(y_label, quantity, get_number(a->node, "value_scale", 1), unit_of(quantity));
   sph_plot_def def = {.title = get_text(a->node, "name", NULL),
-                      .x_label = get_text(a->kind, "axis", "x"),
-                      .y_label = get_text(a->node, "quantity", "")};
+                      .x_label = x_label,
+                      .y_label = y_label};
   return status ? status : sph_plot_series(curves, 2, &def, png, a->error);
 }

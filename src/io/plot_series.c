@@ -50,18 +50,22 @@ static void add_range(sph_text *script, const char *axis, double lo, double hi)
   if (lo < hi) sph_text_add(script, "set %srange [%.9g:%.9g]\n", axis, lo, hi);
 }
 
-/* A logarithmic axis: powers of ten, over less than two of them 1, 2, 5, 10, 20, ... */
+/* A logarithmic axis: powers of ten, over less than two of them 1, 2, 5, 10, 20, ..., with small
+ * tics at 3, 4, 6, ... */
 static void add_log(sph_text *script, const char *axis, double lo, double hi)
 {
+  static const int small[] = {3, 4, 6, 7, 8, 9};
   sph_text_add(script, "set logscale %s\n", axis);
   if (!(lo > 0 && hi > lo && hi < 100 * lo)) {
-    sph_text_add(script, "set format %s '10^{%%T}'\n", axis);
+    sph_text_add(script, "set format %s '10^{%%T}'\nset m%stics 10\n", axis, axis);
     return;
   }
   sph_text_add(script, "set format %s '%%g'\nset %stics (", axis, axis);
   double power = pow(10, floor(log10(lo)));
   while (power <= hi) {
     sph_text_add(script, "%.9g, %.9g, %.9g, ", power, 2 * power, 5 * power);
+    for (size_t k = 0; k < sizeof small / sizeof *small; k++)
+      sph_text_add(script, "'' %.9g 1, ", small[k] * power);
     power *= 10;
   }
   sph_text_add(script, "%.9g)\n", power);
@@ -73,7 +77,7 @@ static void add_head(const sph_plot_def *def, const char *x_title, const char *y
   sph_text_add(
       script,
       "set grid lc rgb '#e4e4e4' lt 1\nset border 3\n"
-      "set key outside bottom center horizontal Left reverse noenhanced spacing 1.3 height 1.2\n");
+      "set key outside bottom center horizontal Left reverse noenhanced spacing 1.3 height 2\n");
   if (def->title) {
     sph_text_add(script, "set title ");
     sph_text_gnuplot_string(script, def->title);

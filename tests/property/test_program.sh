@@ -173,6 +173,12 @@ fi
 run 0 "$sphode" export d1/snapshot_0002.hdf --csv -o one && [[ -s one/snapshot_0002.csv && -s one/walls_0002.csv && ! -e one/snapshot_0000.csv ]] &&
   grep -q "^snapshot_0002.csv," one/times.csv
 ok $? "an export of one snapshot has its number"
+# Scripts of pictures are there without gnuplot, too.
+run 0 "$sphode" run "$SRCDIR/cases/lid-driven-cavity-2d.yml" --lenient -o cavity --set parameters.n=8 --set parameters.L=0.5m --set parameters.U=2m/s \
+  --set run.end=0.02s --set output.snapshots=0.01s --set "compare.0.window=[0, 1]" --set "compare.1.window=[0, 1]" &&
+  grep -qF "set xlabel 'y / (0.5 m)'" cavity/compare_0.gp && grep -qF "set ylabel 'velocity_x / (2 m/s)'" cavity/compare_0.gp &&
+  grep -qF "set ylabel 'velocity_y / (2 m/s)'" cavity/compare_1.gp
+ok $? "comparisons along a section have units at their axes"
 before=$(cksum d1/* | cksum)
 fails "a run that ended is not written over" "d1 holds a run that ended or was stopped" run "$dam" "${small[@]}" -o d1
 [[ $before == "$(cksum d1/* | cksum)" ]]

@@ -221,6 +221,11 @@ awk -F, -v a="$(value dx=L_10)" -v b="$(value dx=L_20)" '
   $1 == "dx=L_20" { p = log(b / a) / log(0.5); e = $9 - p; if (e * e > 1e-5 || $8 == "nan") bad = 1 }
   END { exit bad || n != 3 }' channel-sweep/sweep.csv || { sed 's/^/# /' channel-sweep/sweep.csv; false; }
 ok $? "sweep.csv holds distances and their order"
+awk -F, 'NR == 1 { if ($0 != "spacing [m],velocity at the end (rms),order 1,order 2") bad = 1; next }
+  NR == 2 { e = $2; if ($3 != e || $4 != e) bad = 1 }
+  NR == 3 { if (($3 - e / 2)^2 > 1e-16 * e^2 || ($4 - e / 4)^2 > 1e-16 * e^2) bad = 1 }
+  END { exit bad || NR != 3 }' channel-sweep/convergence.csv || { sed 's/^/# /' channel-sweep/convergence.csv; false; }
+ok $? "convergence.csv names its columns, and has two slopes beside them"
 if command -v gnuplot >/dev/null; then [[ -s channel-sweep/convergence.png ]]; ok $? "its picture"; else ok 0 "its picture # SKIP no gnuplot"; fi
 before=$(cksum channel-sweep/dx=L_20/* channel-sweep/dx=L_20.log)
 run 0 "$sphode" sweep channel.yml --vary dx=L/10,L/20 "${small[@]}" && [[ $(grep -c "done before" err) == 2 && $(grep -c "done" out) == 2 ]] &&
