@@ -178,7 +178,7 @@ static int drawn(const sweep *s, int c)
   return n > 1 && s->keys == 1;
 }
 
-/* The coarsest run, where errors are told over the spacing: slopes begin there; -1: they are not. */
+/* The coarsest run, in which slopes begin; -1: errors are not told over the spacing. */
 static int coarsest(const sweep *s)
 {
   int found = -1;
