@@ -64,13 +64,12 @@ static double fields(const sph_sim *sim)
   return 8 * arrays * (double)group->n;
 }
 
-/* Runs, blocks; the search's order, cells and sorted positions. */
+/* Runs, blocks; the search's order and cells. */
 static double lists(const sph_sim *sim)
 {
   const sph_list list = sph_neighbors_list(sim->neighbors, 0, 0);
   return (double)list.first[list.blocks] * sizeof *list.runs +
-         (double)list.blocks * sizeof *list.first +
-         (double)sim->group[0]->n * (2 * sizeof(int) + 3 * sizeof(double));
+         (double)list.blocks * sizeof *list.first + (double)sim->group[0]->n * 2 * sizeof(int);
 }
 
 static void measure(const char *what, const char *method, long across)

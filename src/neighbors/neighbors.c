@@ -109,7 +109,7 @@ void sph_neighbors_free(sph_neighbors *nb)
     sph_memory_free(set->order);
     for (int d = 0; d < 3; d++) {
       sph_memory_free(set->wrap[d]);
-      sph_memory_free(set->x[d]);
+      if (!set->lent) sph_memory_free(set->x[d]);
     }
     for (int t = 0; t < SPH_SETS_MAX; t++) free_list(nb->list[s][t]);
   }
@@ -151,7 +151,7 @@ static double set_bytes(const sph_set *set)
 {
   double bytes = sizeof(int) * (double)set->room;
   for (int d = 0; d < 3; d++) {
-    if (set->x[d]) bytes += sizeof(double) * (double)(set->room + SPH_LANES_MAX);
+    if (set->x[d] && !set->lent) bytes += sizeof(double) * (double)(set->room + SPH_LANES_MAX);
     if (set->wrap[d]) bytes += sizeof(double) * (double)set->room;
   }
   return bytes;
@@ -234,6 +234,7 @@ long sph_neighbors_find(const sph_neighbors *nb, int target, int source, long i,
                         long *index, double *distance)
 {
   if (!good_set(nb, target) || !good_set(nb, source)) return SPH_ERR_STATE;
+  if (nb->set[target].lent || nb->set[source].lent) return SPH_ERR_STATE;
   long place = place_of(&nb->set[target], i);
   if (place < 0 || max < 0) return SPH_ERR_ARGUMENT;
   long n = collect_all(nb, target, source, place, NULL);

@@ -4,16 +4,15 @@
 #include <math.h>
 
 #include "cpu.h"
-#include "sphode/neighbors.h"
+#include "neighbors_sort.h"
 
 enum {
-  SPH_LANES_MAX = 8,
   SPH_IMAGES_MAX = 27,
   SPH_STRETCHES = 512 /* that are asked for at once */
 };
 
 typedef struct sph_set {
-  int sorted;
+  int sorted, lent;    /* lent: x is the caller's (neighbors_sort.h) */
   long n, room;        /* points; room for */
   int *order;          /* [room] */
   double *wrap[3];     /* [room] not sorted; NULL unless periodic */

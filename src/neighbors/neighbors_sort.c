@@ -8,13 +8,23 @@
 
 static const double FAR_AWAY = 1e150; /* [m]; its square is still finite */
 
+void sph_neighbors_sort_lend(sph_neighbors *nb, int set_number, double *const x[])
+{
+  sph_set *set = &nb->set[set_number];
+  for (int d = 0; d < nb->def.dim; d++) {
+    if (!set->lent) sph_memory_free(set->x[d]);
+    set->x[d] = x[d];
+  }
+  set->lent = 1;
+}
+
 static int reserve(sph_neighbors *nb, sph_set *set, long n, sph_error *error)
 {
   if (n <= set->room && set->order) return SPH_OK;
   size_t room = (size_t)n + (size_t)n / 8 + 16;
   int status = sph_memory_grow((void **)&set->order, 0, room, sizeof(int), "sorted order", error);
   for (int d = 0; d < nb->def.dim; d++) {
-    if (!status)
+    if (!status && !set->lent)
       status = sph_memory_grow((void **)&set->x[d], 0, room + SPH_LANES_MAX, sizeof(double),
                                "sorted positions", error);
     if (!status && nb->def.periodic[d])

@@ -470,6 +470,38 @@ static void find(void **state)
   sph_neighbors_free(nb);
 }
 
+/* Sorted positions in arrays of the caller's: the same lists, whatever the arrays hold before and
+ * after. */
+static void lent(void **state)
+{
+  (void)state;
+  static double memory[3][MOST];
+  double *const x[] = {memory[0], memory[1], memory[2]};
+  place_uniform(&first_set, 3);
+  place_uniform(&second_set, 3);
+  sph_neighbors_def def = define(3, 4);
+  for (int d = 0; d < 3; d++) def.periodic[d] = d != 1, def.length[d] = box;
+  sph_neighbors *own = create(def), *borrows = create(def);
+  sort_and_build(own);
+  sort_and_build(borrows);
+  const double own_bytes = sph_neighbors_bytes(borrows);
+  for (int again = 0; again < 2; again++) {
+    for (long i = 0; i < MOST; i++) memory[0][i] = memory[1][i] = memory[2][i] = NAN;
+    sph_neighbors_sort_lend(borrows, 0, x);
+    sort_and_build(borrows);
+    for (long i = 0; i < MOST; i++) memory[0][i] = memory[1][i] = memory[2][i] = NAN;
+    const sph_list a = sph_neighbors_list(own, 0, 0), b = sph_neighbors_list(borrows, 0, 0);
+    assert_int_equal(a.first[a.blocks], b.first[b.blocks]);
+    assert_memory_equal(a.runs, b.runs, (size_t)a.first[a.blocks] * sizeof *a.runs);
+  }
+  assert_true(sph_neighbors_bytes(borrows) < own_bytes - 24.0 * (double)first_set.n);
+  assert_int_equal(sph_neighbors_find(borrows, 0, 5, 0, 0, NULL, NULL), SPH_ERR_STATE);
+  assert_int_equal(sph_neighbors_find(borrows, 5, 0, 0, 0, NULL, NULL), SPH_ERR_STATE);
+  assert_true(sph_neighbors_find(borrows, 5, 5, 0, 0, NULL, NULL) > 0);
+  sph_neighbors_free(own);
+  sph_neighbors_free(borrows);
+}
+
 static void rejected(sph_neighbors_def def, const char *text)
 {
   sph_error error = {0};
@@ -530,6 +562,7 @@ int main(void)
       cmocka_unit_test(order),
       cmocka_unit_test(long_runs),
       cmocka_unit_test(find),
+      cmocka_unit_test(lent),
       cmocka_unit_test(bad_arguments),
       cmocka_unit_test(not_finite),
   };
