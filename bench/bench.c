@@ -123,6 +123,7 @@ int main(int argc, char **argv)
   bench_derivatives();
   bench_integration();
   bench_tiles();
+  bench_threads();
   bench_reach();
   bench_dam();
   bench_output();

@@ -11,35 +11,9 @@
 #include <stdlib.h>
 
 #include "bench.h"
+#include "bench_flow.h"
 
 enum { REPEATS = 7 };
-
-/* n spacings in the height of the column. */
-static sph_sim *make(int n, const char *delta, const char *method, double jitter)
-{
-  const double H = 0.55, dx = H / n, g = 9.81, c0 = 44.29, rho = 1000;
-  const double length = dx * rint(3.22 / dx), width = dx * rint(1 / dx);
-  const double front = dx * rint(2.3955 / dx), side = dx * rint(0.161 / dx);
-  const double near = dx * rint((width - 0.403) / (2 * dx));
-  const double lo[3] = {0}, column[3] = {1.228, width, H}, tank[3] = {length, width, 1};
-  const double box[3] = {front, near, 0}, top[3] = {front + side, width - near, side};
-  sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 3, .dx = dx, .h_over_dx = 2});
-  sph_group *water = sph_group_box(sim, "water", lo, column, rho);
-  sph_group *wall = sph_group_create(sim, "tank", "wall");
-  sph_group_add_layers(wall, lo, tank, "z+", rho);
-  sph_group_add_box(wall, box, top, rho);
-  sph_group_set_eos(water, sph_eos_tait(rho, c0, 7));
-  sph_group_set_boundary(wall, sph_boundary_adami());
-  sph_group_set_hydrostatic(water, 2, H, g);
-  if (jitter > 0) sph_group_jitter(water, jitter, 1);
-  sph_sim_add_term(sim, sph_term_continuity());
-  sph_sim_add_term(sim, sph_term_pressure());
-  sph_sim_add_term(sim, sph_term_viscosity_artificial(0.001, 0));
-  sph_sim_add_term(sim, sph_term_delta(delta, 0.1));
-  sph_sim_add_term(sim, sph_term_gravity((double[3]){0, 0, -g}));
-  sph_sim_set_integrator(sim, &(sph_integrator_def){.method = method});
-  return sim;
-}
 
 static double pairs_of(const sph_sim *sim)
 {
@@ -54,7 +28,7 @@ static void measure_step(int n, const char *size, const char *delta)
   double rate[REPEATS];
   snprintf(name, sizeof name, "dam/3d/%s/%s/step", size, delta);
   if (!bench_wanted(name)) return;
-  sph_sim *sim = make(n, delta, "leapfrog", 0);
+  sph_sim *sim = bench_flow_dam(n, delta, "leapfrog", 0, 1);
   for (int k = -2; k < REPEATS; k++) {
     double pairs = pairs_of(sim), begin = bench_thread_seconds();
     sph_sim_step(sim);
@@ -82,8 +56,8 @@ static void measure_developed(const char *delta)
   snprintf(name, sizeof name, "dam/3d/developed/%s", delta);
   snprintf(start, sizeof start, "its start");
   if (!bench_wanted(name)) return;
-  sph_sim *developed = make(n, delta, "erk:bogacki-shampine-4-2-3", 0);
-  sph_sim *lattice = make(n, delta, "leapfrog", 0.1);
+  sph_sim *developed = bench_flow_dam(n, delta, "erk:bogacki-shampine-4-2-3", 0, 1);
+  sph_sim *lattice = bench_flow_dam(n, delta, "leapfrog", 0.1, 1);
   if (sph_sim_run(developed, 0.9)) fprintf(stderr, "bench: %s\n", sph_sim_error(developed));
   for (int k = -1; k < REPEATS; k++) {
     double a = rate_of(developed), b = rate_of(lattice);
