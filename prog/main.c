@@ -250,6 +250,38 @@ static const command *find(const char *name)
   return NULL;
 }
 
+/* Letters to insert, delete, replace or swap with the next one to make b of a: at most `most`, or
+ * more than that. */
+static int edits(const char *a, const char *b, int most)
+{
+  while (*a && *a == *b) a++, b++;
+  if (!*a && !*b) return 0;
+  if (most == 0) return 1;
+  const int swapped = *a && *b && a[0] == b[1] && a[1] == b[0];
+  const int way[] = {swapped ? edits(a + 2, b + 2, most - 1) : most,
+                     *a ? edits(a + 1, b, most - 1) : most, *b ? edits(a, b + 1, most - 1) : most,
+                     *a && *b ? edits(a + 1, b + 1, most - 1) : most};
+  int least = most;
+  for (int k = 0; k < 4; k++)
+    if (way[k] < least) least = way[k];
+  return least + 1;
+}
+
+static int no_command(const char *word)
+{
+  const char *nearest = NULL;
+  for (int most = 1; word && most <= 2 && !nearest; most++)
+    for (int k = 0; k < COMMANDS && !nearest; k++)
+      if (3 * most <= (int)strlen(commands[k].name) && edits(word, commands[k].name, most) <= most)
+        nearest = commands[k].name;
+  if (nearest)
+    sph_prog_error(PROG_USAGE, "'%s' is no command; did you mean '%s'?", word, nearest);
+  else
+    sph_prog_error(PROG_USAGE, word ? "'%s' is no command" : "no command", word ? word : "");
+  fprintf(stderr, "Try 'sphode --help'.\n");
+  return PROG_USAGE;
+}
+
 static const char *option_name(int letter)
 {
   for (int k = 0; options[k].name; k++)
@@ -372,11 +404,7 @@ int main(int argc, char **argv)
     return PROG_OK;
   }
   const command *c = find(word);
-  if (!c) {
-    sph_prog_error(PROG_USAGE, word ? "'%s' is no command" : "no command", word ? word : "");
-    fprintf(stderr, "Try 'sphode --help'.\n");
-    return PROG_USAGE;
-  }
+  if (!c) return no_command(word);
   keep_command(&o, argc, argv);
   int status = parse(c, argc - 1, argv + 1, &o);
   if (status < 0) status = c->run(&o);

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "prog.h"
 
@@ -99,13 +100,31 @@ static void print_json(int from, int to, double dx)
   puts("\n]");
 }
 
+/* "0.01", "1cm", "1 cm"; 0: no length. */
+static double metres(const char *text)
+{
+  static const struct {
+    const char *name;
+    double metres;
+  } unit[] = {{"", 1},      {"m", 1},     {"dm", 0.1},  {"cm", 0.01},
+              {"mm", 1e-3}, {"um", 1e-6}, {"km", 1000}, {"in", 0.0254}};
+  char *end;
+  const double n = strtod(text, &end);
+  if (end == text || !(n > 0) || isinf(n)) return 0;
+  end += strspn(end, " ");
+  for (size_t k = 0; k < sizeof unit / sizeof *unit; k++)
+    if (!strcmp(end, unit[k].name)) return n * unit[k].metres;
+  return 0;
+}
+
 int sph_prog_advice(const prog_options *o)
 {
-  char *end;
-  const double dx = o->spacing ? strtod(o->spacing, &end) : 0;
-  if (!o->spacing) return sph_prog_error(PROG_USAGE, "--dim wants --spacing, as in --spacing 0.01");
-  if (end == o->spacing || *end || !(dx > 0) || isinf(dx))
-    return sph_prog_error(PROG_USAGE, "--spacing %s: wanted a number > 0, in metres", o->spacing);
+  if (!o->spacing) return sph_prog_error(PROG_USAGE, "--dim wants --spacing, as in --spacing 1cm");
+  const double dx = metres(o->spacing);
+  if (!(dx > 0))
+    return sph_prog_error(PROG_USAGE,
+                          "--spacing %s: wanted a length > 0, as 0.01 (in metres), 1cm, 10mm",
+                          o->spacing);
   const int from = o->dim ? o->dim : 2, to = o->dim ? o->dim : 3;
   if (o->json) return print_json(from, to, dx), PROG_OK;
   for (int dim = from; dim <= to; dim++) print_table(dim, dx);

@@ -78,6 +78,8 @@ offers "bash: words of a key" "$(complete_bash sphode run --set search = '')" gr
 offers "bash: words of a key, begun" "$(complete_bash sphode run --set search = g)" grid '!tree'
 offers "bash: --set=" "$(complete_bash sphode run --set = spac)" spacing= '!speed='
 offers "bash: integrators" "$(complete_bash sphode work-precision --integrators leap)" leapfrog
+offers "bash: templates" "$(complete_bash sphode new '')" tank piston channel gas piston-hill-3d '!or' '!(default)'
+offers "bash: fields" "$(complete_bash sphode plot results --field '')" velocity pressure density velocity_x '!...'
 offers "bash: nothing wrong with an unknown command" "$(complete_bash sphode nothing '')" '!case.yml'
 
 if command -v zsh >/dev/null; then
@@ -86,8 +88,10 @@ if command -v zsh >/dev/null; then
   offers "zsh: case files" "$(complete_zsh 'sphode run ')" case.yml '!notes.txt'
   offers "zsh: keys" "$(complete_zsh 'sphode run case.yml --set groups.')" groups.water. groups.tank.
   offers "zsh: words of a key" "$(complete_zsh 'sphode run --set search=')" grid tree
+  offers "zsh: templates" "$(complete_zsh 'sphode new ')" tank piston-hill-3d '!or'
+  offers "zsh: fields" "$(complete_zsh 'sphode plot results --field ')" velocity pressure
 else
-  for what in commands options "case files" keys "words of a key"; do
+  for what in commands options "case files" keys "words of a key" templates fields; do
     echo "ok $((++count)) - zsh: $what # SKIP no zsh"
   done
 fi
