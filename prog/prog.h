@@ -25,7 +25,7 @@ typedef struct prog_options {
   int quiet, force, lenient, json, csv;
   int live, port;      /* a page; port 0: a free one */
   const char *q;       /* "0,0.25,1.3" */
-  const char *spacing; /* info kernels: in metres; NULL: not asked for */
+  const char *spacing; /* info kernels: "0.01", "1cm"; NULL: not asked for */
   int dim;             /* 0: 2 and 3 */
   const char *field;   /* NULL: that of the case */
   int frames;          /* 0: that of the case */
@@ -79,8 +79,19 @@ int sph_prog_advice(const prog_options *o);
 /* "sphode: ..." on stderr; returns status. */
 int sph_prog_error(int status, const char *format, ...) SPH_PRINTF(2, 3);
 
+/* The error of a simulation of the case, with its place in the file, else behind `what`. */
+int sph_prog_sim_error(const sph_case *c, const sph_sim *sim, const char *what);
+
 /* Warning k of a case and of its simulation, evaluated; 0: there is none. */
 int sph_prog_warning(const sph_case *c, const sph_sim *sim, int k, char *text, size_t size);
+
+/* Prints what the run of a case will write, by frames of sim, which has made steps with the outputs
+ * of a trial in stage; adds to the warnings where it has no room here.  A status. */
+int sph_prog_sizes(const sph_case *c, sph_sim *sim, const char *stage, int *warnings,
+                   sph_error *error);
+
+/* Where a run begins: will its snapshots have room in the directory, small as the first one is? */
+void sph_prog_sizes_warn(const sph_case *c, sph_sim *sim, const char *directory);
 
 /* Makes a directory ready for a run and holds it (nobody else writes there); a file descriptor, or
  * -1, told.  A run that ended stays unless force, and so does one that can go on from a

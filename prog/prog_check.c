@@ -28,12 +28,22 @@ static void print_groups(const sph_sim *sim)
          sph_sim_dx(sim), sph_sim_h(sim), sph_sim_h(sim) / sph_sim_dx(sim), sph_sim_kernel(sim));
 }
 
+int sph_prog_sim_error(const sph_case *c, const sph_sim *sim, const char *what)
+{
+  char place[4200];
+  const int known = sph_case_place(c, sph_sim_error(sim), place, sizeof place);
+  return sph_prog_error(PROG_FAILED, "%s: %s", known ? place : what, sph_sim_error(sim));
+}
+
 int sph_prog_warning(const sph_case *c, const sph_sim *sim, int k, char *text, size_t size)
 {
-  int of_sim = 0;
+  int of_sim = 0, of_case = 0;
   if (sph_sim_warning(sim, k, text, size)) return 1;
   while (of_sim < k && sph_sim_warning(sim, of_sim, NULL, 0)) of_sim++;
-  return sph_case_warning(c, k - of_sim, text, size);
+  k -= of_sim;
+  if (sph_case_warning(c, k, text, size)) return 1;
+  while (of_case < k && sph_case_warning(c, of_case, text, size)) of_case++;
+  return sph_case_warning_places(c, sim, k - of_case, text, size);
 }
 
 static int warnings(const sph_case *c, const sph_sim *sim)
@@ -86,49 +96,40 @@ static int picture(const prog_options *o, const sph_case *c, const sph_sim *sim)
 
 enum { STEPS = 20 };
 
-typedef struct trial {
-  double begin;       /* wall time after the first step [s]: it builds lists and warms caches */
-  double one;         /* wall time of a step after it [s] */
-  sph_sim_stats last; /* after as many */
-} trial;
-
-static int after_step(void *ctx, sph_sim *sim)
-{
-  trial *t = ctx;
-  sph_sim_get_stats(sim, &t->last);
-  long more = t->last.step.steps - 1;
-  if (more == 0) t->begin = sph_prog_progress_now();
-  if (more > 0) t->one = (sph_prog_progress_now() - t->begin) / (double)more;
-  return more >= STEPS;
-}
-
 /* Which limits the steps met: sound (cfl), viscosity, forces, errors, ... */
-static void print_bounds(const sph_step_stats *s)
+static void print_bounds(const sph_sim *sim, const sph_step_stats *s)
 {
   const char *between = "";
   printf("%-12s ", "bound by");
   for (int k = 0; k < SPH_BOUND_COUNT; k++) {
     if (!s->bound_by[k]) continue;
-    printf("%s%s %.0f %%", between, sph_bound_name(k),
+    printf("%s%s %.0f %%", between, sph_sim_bound_name(sim, k),
            100. * (double)s->bound_by[k] / (double)s->steps);
     between = ", ";
   }
   putchar('\n');
 }
 
-/* A few steps tell the step size and the speed of this machine; nothing is written. */
+/* A few steps tell the step size and the speed of this machine.  The first one does not count: it
+ * builds lists and warms caches. */
 static int estimate(sph_sim *sim, double end)
 {
-  trial t = {0};
-  sph_sim_set_progress(sim, after_step, &t);
-  int status = sph_sim_run(sim, end);
-  if (status && status != SPH_ERR_STOPPED) return status;
-  double steps = ceil(end / t.last.step.dt_largest);
-  printf("%-12s about %.3g steps of %.3g s to t = %.4g s (%s)\n", "steps", steps,
-         t.last.step.dt_largest, end, sph_sim_integrator(sim));
-  print_bounds(&t.last.step);
-  printf("%-12s about %.2g s on this machine with %d thread%s, %.3g MB\n", "time", steps * t.one,
-         sph_sim_threads(sim), sph_sim_threads(sim) == 1 ? "" : "s", 1e-6 * t.last.bytes);
+  sph_sim_stats s = {0};
+  double begin = 0;
+  int status = sph_sim_run(sim, sph_sim_time(sim)); /* first frames, which find what is wrong */
+  for (int k = 0; k <= STEPS && !status && sph_sim_time(sim) < end; k++) {
+    status = sph_sim_step(sim);
+    if (k == 0) begin = sph_prog_progress_now();
+  }
+  if (status) return status;
+  const double seconds = sph_prog_progress_now() - begin;
+  sph_sim_get_stats(sim, &s);
+  const double steps = ceil(end / s.step.dt_largest), one = seconds / fmax(1, s.step.steps - 1);
+  printf("%-12s about %.3g steps of %.3g s to t = %.4g s (%s)\n", "steps", steps, s.step.dt_largest,
+         end, sph_sim_integrator(sim));
+  print_bounds(sim, &s.step);
+  printf("%-12s about %.2g s on this machine with %d thread%s, %.3g MB\n", "time", steps * one,
+         sph_sim_threads(sim), sph_sim_threads(sim) == 1 ? "" : "s", 1e-6 * s.bytes);
   return SPH_OK;
 }
 
@@ -136,15 +137,18 @@ static int estimate(sph_sim *sim, double end)
 static int try_out(const prog_options *o, const sph_case *c, sph_sim *sim, const char *stage,
                    sph_error *error)
 {
-  printf("%s\n\n", sph_case_title(c));
+  if (*sph_case_title(c)) printf("%s\n\n", sph_case_title(c));
   print_groups(sim);
   print_events(c);
   int n = warnings(c, sim), status = picture(o, c, sim);
   if (status) return status;
-  sph_case_build_series(c, sim, stage);
-  if (!sph_sim_status(sim)) status = estimate(sim, sph_case_end(c));
-  if (sph_sim_status(sim) && sph_sim_status(sim) != SPH_ERR_STOPPED) status = sph_sim_status(sim);
+  status = sph_case_plot_check(c, sim, error);
+  if (status) return status;
+  sph_case_build_output_trial(c, sim, stage);
+  status = sph_sim_status(sim);
+  if (!status) status = estimate(sim, sph_case_end(c));
   if (!status) status = sph_case_compare_check(c, sim, stage, error);
+  if (!status) status = sph_prog_sizes(c, sim, stage, &n, error);
   if (!status) printf("%-12s right, %d warning%s\n", "the case", n, n == 1 ? "" : "s");
   return status;
 }
@@ -163,7 +167,7 @@ int sph_prog_check(const prog_options *o)
   if (error.status)
     sph_prog_error(PROG_FAILED, "%s", error.text);
   else if (status && !told && status != PROG_FAILED)
-    sph_prog_error(PROG_FAILED, "%s: %s", o->what, sph_sim_error(sim));
+    sph_prog_sim_error(c, sim, o->what);
   sph_sim_free(sim);
   sph_case_free(c);
   return status ? PROG_FAILED : PROG_OK;

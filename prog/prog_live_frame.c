@@ -147,12 +147,12 @@ static int put_history(prog_live_frame *frame, const prog_live_history *history)
 }
 
 /* What bound most of the steps. */
-static const char *bound(const sph_step_stats *s)
+static const char *bound(const sph_sim *sim, const sph_step_stats *s)
 {
   int most = 0;
   for (int k = 1; k < SPH_BOUND_COUNT; k++)
     if (s->bound_by[k] > s->bound_by[most]) most = k;
-  return sph_bound_name(most);
+  return sph_sim_bound_name(sim, most);
 }
 
 int sph_prog_live_frame_fill(prog_live_frame *frame, sph_sim *sim, const char *field, double end,
@@ -164,7 +164,7 @@ int sph_prog_live_frame_fill(prog_live_frame *frame, sph_sim *sim, const char *f
   sph_sim_get_stats(sim, &s);
   frame->size = 0;
   int bad = put(frame, "{\"t\":%.9g,\"end\":%.9g,\"step\":%ld,\"dt\":%.4g,\"bound\":\"%s\",",
-                sph_sim_time(sim), end, s.step.steps, number(s.step.dt_last), bound(&s.step));
+                sph_sim_time(sim), end, s.step.steps, number(s.step.dt_last), bound(sim, &s.step));
   bad = bad || put(frame, "\"paused\":%d,\"dim\":%d,\"dx\":%.6g,\"field\":\"%s\",", paused,
                    sph_sim_dim(sim), sph_sim_dx(sim), field);
   bad = bad || put(frame, "\"particles\":%ld,\"wall_particles\":%ld,\"fluid\":%ld,", fluids, walls,

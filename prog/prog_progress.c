@@ -26,13 +26,13 @@ double sph_prog_progress_now(void)
 }
 
 /* What bound most of the steps since the last line. */
-static const char *bound(prog_progress *p, const sph_step_stats *s)
+static const char *bound(prog_progress *p, const sph_sim *sim, const sph_step_stats *s)
 {
   int most = 0;
   for (int k = 1; k < SPH_BOUND_COUNT; k++)
     if (s->bound_by[k] - p->bound_by[k] > s->bound_by[most] - p->bound_by[most]) most = k;
   memcpy(p->bound_by, s->bound_by, sizeof p->bound_by);
-  return sph_bound_name(most);
+  return sph_sim_bound_name(sim, most);
 }
 
 static long fluids(const sph_sim *sim)
@@ -61,7 +61,7 @@ static void tell(prog_progress *p, sph_sim *sim)
   snprintf(line, sizeof line,
            "t %.4g/%.4g s %3.0f %%  step %ld, dt %.3g s (%s)  %ld particles  %.3g Mpairs/s  "
            "%.0f:%02.0f left",
-           t, p->end, 100 * t / p->end, s.step.steps, s.step.dt_last, bound(p, &s.step),
+           t, p->end, 100 * t / p->end, s.step.steps, s.step.dt_last, bound(p, sim, &s.step),
            fluids(sim), used > 0 ? 1e-6 * s.pairs / used : 0, floor(left / 60),
            floor(fmod(left, 60)));
   if (p->live)
@@ -92,6 +92,14 @@ static int is_stopped(void *ctx)
   return stopped_by || (p->deadline > 0 && sph_prog_progress_now() > p->deadline);
 }
 
+/* What time there is no more of; NULL: there is. */
+static const char *over(const prog_progress *p)
+{
+  const double then = p->stepped + 2 * p->longest;
+  if (p->limit > 0 && then > p->limit) return "before run.time_limit is over";
+  return p->queue != 0 && then + QUEUE_MARGIN > p->queue ? "before the queue ends the job" : NULL;
+}
+
 static int progress(void *ctx, sph_sim *sim)
 {
   prog_progress *p = ctx;
@@ -100,14 +108,12 @@ static int progress(void *ctx, sph_sim *sim)
   p->stepped = now;
   if (!p->quiet && is_due(p, sim)) tell(p, sim);
   if (p->page && sph_prog_live_step(p->page, sim, p->end, is_stopped, p)) return 1;
-  return is_stopped(p) || sph_prog_progress_over(p);
+  if (is_stopped(p)) return 1;
+  sph_sim_set_stop(sim, over(p));
+  return sph_prog_progress_over(p);
 }
 
-int sph_prog_progress_over(const prog_progress *p)
-{
-  const double then = p->stepped + 2 * p->longest;
-  return (p->limit > 0 && then > p->limit) || (p->queue != 0 && then + QUEUE_MARGIN > p->queue);
-}
+int sph_prog_progress_over(const prog_progress *p) { return over(p) != NULL; }
 
 /* Seconds until a queue ends this job, by what Slurm says in the environment; INFINITY: it does
  * not. */

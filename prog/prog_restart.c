@@ -103,6 +103,22 @@ static int go_on_from(prog_job *j, const char *path)
   return status;
 }
 
+/* A directory without a checkpoint: is it that of a run? */
+static int tell_none(const prog_job *j)
+{
+  const int run = !faccessat(j->held, "case.yml", F_OK, 0);
+  if (!run)
+    return sph_prog_error(PROG_FAILED,
+                          "%s holds no checkpoint (checkpoint_*.hdf), nor a case.yml: right is the "
+                          "directory of a run",
+                          j->directory);
+  return sph_prog_error(PROG_FAILED,
+                        "%s holds no checkpoint (checkpoint_*.hdf); sphode run %s/case.yml -o "
+                        "ELSEWHERE begins again, with --set checkpoint.wall=60s one each minute "
+                        "(checkpoint.keep=0: none)",
+                        j->directory, j->directory);
+}
+
 static int prepare(prog_job *j)
 {
   char path[4096];
@@ -114,10 +130,12 @@ static int prepare(prog_job *j)
   for (; status < 0 && sph_checkpoint_find(j->directory, k, path, sizeof path); k++)
     status = go_on_from(j, path);
   if (status >= 0) return status;
-  return sph_prog_error(PROG_FAILED,
-                        k ? "%s: none of its checkpoints can be used"
-                          : "%s holds no checkpoint (checkpoint_*.hdf)",
-                        j->directory);
+  if (k)
+    return sph_prog_error(PROG_FAILED,
+                          "%s: none of its checkpoints can be used; sphode run begins again with "
+                          "%s/case.yml",
+                          j->directory, j->directory);
+  return tell_none(j);
 }
 
 int sph_prog_restart(const prog_options *o)

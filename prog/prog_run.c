@@ -63,8 +63,8 @@ int sph_prog_run_build(prog_job *j)
   if (sph_case_check_parts(j->c, &error)) return failed(&error);
   j->sim = sph_case_build(j->c, j->o->threads, &error);
   if (!j->sim) return failed(&error);
-  if (sph_sim_evaluate(j->sim))
-    return sph_prog_error(PROG_FAILED, "%s: %s", j->o->what, sph_sim_error(j->sim));
+  if (sph_sim_evaluate(j->sim)) return sph_prog_sim_error(j->c, j->sim, j->o->what);
+  if (sph_case_plot_check(j->c, j->sim, &error)) return failed(&error);
   sph_sim_balance(j->sim, &j->start);
   sph_sim_keep_add(j->sim, (sph_kept){.name = "balance", .keep = keep_start, .ctx = &j->start});
   return PROG_OK;
@@ -90,6 +90,7 @@ static void warn(const prog_job *j)
   char text[400];
   for (int k = 0; !j->o->quiet && sph_prog_warning(j->c, j->sim, k, text, sizeof text); k++)
     sph_prog_error(PROG_OK, "warning: %s", text);
+  if (!j->o->quiet) sph_prog_sizes_warn(j->c, j->sim, j->directory);
 }
 
 static int prepare(prog_job *j)
@@ -116,8 +117,8 @@ static void tell_checkpoint(const prog_job *j)
   sph_checkpoint_info info;
   if (!sph_checkpoint_find(j->directory, 0, path, sizeof path)) {
     sph_prog_error(PROG_OK,
-                   "%s holds no checkpoint yet: they are written as checkpoint: {wall: ...} "
-                   "or {steps: ...} of the case tells",
+                   "%s holds no checkpoint yet, so that sphode run begins again; --set "
+                   "checkpoint.wall=60s writes one each minute",
                    j->directory);
     return;
   }
@@ -154,9 +155,12 @@ static int simulate(prog_job *j)
   j->page = NULL;
   sph_prog_progress_end(&progress);
   if (status == SPH_OK) return PROG_OK;
-  sph_prog_error(PROG_FAILED, "%s: %s", j->directory, sph_sim_error(j->sim));
+  if (status == SPH_ERR_ARGUMENT) /* of an output, as it is opened */
+    sph_prog_sim_error(j->c, j->sim, j->directory);
+  else
+    sph_prog_error(PROG_FAILED, "%s: %s", j->directory, sph_sim_error(j->sim));
   if (status == SPH_ERR_STEP) tell_failure(j);
-  tell_checkpoint(j);
+  if (status != SPH_ERR_ARGUMENT) tell_checkpoint(j);
   if (status != SPH_ERR_STOPPED) return PROG_FAILED;
   int number = sph_prog_progress_signal();
   return number ? 128 + number : sph_prog_progress_over(&progress) ? PROG_LIMIT : PROG_FAILED;

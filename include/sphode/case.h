@@ -35,6 +35,9 @@ SPH_API int sph_case_check_parts(const sph_case *c, sph_error *error);
 /* Keys that do nothing without their partner, as heat_flux without conduction, events behind the
  * end of the run, periods longer than it: warning k = 0, 1, ... written to text[size]; 0: none. */
 SPH_API int sph_case_warning(const sph_case *c, int k, char *text, size_t size);
+/* Monitors and events that look far outside of all particles of the simulation; likewise. */
+SPH_API int sph_case_warning_places(const sph_case *c, const sph_sim *sim, int k, char *text,
+                                    size_t size);
 /* What event k = 0, 1, ... of the case waits for, does and changes, in one line; 0: none. */
 SPH_API int sph_case_event_text(const sph_case *c, int k, char *text, size_t size);
 /* The integrator that the case names, as its simulation has it; its strings live as long as c. */
@@ -46,6 +49,22 @@ SPH_API void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char 
 
 /* Those of them that are small: all but snapshots. */
 SPH_API void sph_case_build_series(const sph_case *c, sph_sim *sim, const char *directory);
+/* The same for a trial: a frame where a run starts and one where it ends. */
+SPH_API void sph_case_build_output_trial(const sph_case *c, sph_sim *sim, const char *directory);
+
+/* What the run of a case will write, as bytes that are really made. */
+typedef struct sph_case_size {
+  char name[80];   /* "snapshots", a table, as "series.csv", "checkpoints" */
+  double interval; /* [s]; of checkpoints 0 */
+  double frames;   /* of the whole run; of checkpoints: so many stay */
+  double bytes;    /* of one; of a table: of the rows of a frame */
+} sph_case_size;
+/* Entry k = 0, 1, ... of it, behind a trial in directory (sph_case_build_output_trial,
+ * sph_sim_run) and in the state that sim shows; checkpoints come last.  1; 0: there is none; < 0: a
+ * status, also where steps as long as the largest so far would have more frames in them than a run
+ * takes. */
+SPH_API int sph_case_size_get(const sph_case *c, sph_sim *sim, const char *directory, int k,
+                              sph_case_size *size, sph_error *error);
 
 /* Checkpoints of the case (sphode/checkpoint.h) into a directory, which hold its text; behind its
  * outputs. */
@@ -67,11 +86,18 @@ SPH_API void sph_case_compare_free(sph_comparison *list, int n);
  */
 SPH_API int sph_case_compare_check(const sph_case *c, sph_sim *sim, const char *directory,
                                    sph_error *error);
+/* Before the run: will snapshots have the field of the picture (plot)?  Of a simulation that is
+ * evaluated. */
+SPH_API int sph_case_plot_check(const sph_case *c, sph_sim *sim, sph_error *error);
 /* Draws comparison k = 0, 1, ..., of a time series with a table or of particles with a solution in
  * space, as directory/compare_k.png, whose path is written to png[size].  SPH_ERR_ARGUMENT: not
  * such a comparison. */
 SPH_API int sph_case_compare_plot(const sph_case *c, int k, const char *directory, char *png,
                                   size_t size, sph_error *error);
+
+/* "file:line:column" of the probe, monitor, event or group that an error of the simulation names,
+ * in place[size]; 0: it names none that the file has. */
+SPH_API int sph_case_place(const sph_case *c, const char *message, char *place, size_t size);
 
 SPH_API const char *sph_case_title(const sph_case *c);
 /* Read again, both give a case: text this one, as it is with what was set (which stands in comments

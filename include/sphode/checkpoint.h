@@ -48,6 +48,8 @@ typedef struct sph_checkpoint_def {
 SPH_API void sph_checkpoint_set(struct sph_sim *sim, const sph_checkpoint_def *def);
 /* One now, between steps; sph_checkpoint_set told where. */
 SPH_API int sph_checkpoint_write(struct sph_sim *sim);
+/* Bytes of one now, which is not written; likewise.  < 0: a status. */
+SPH_API long sph_checkpoint_size(struct sph_sim *sim);
 
 /* The simulation goes on from that file.  A status: SPH_ERR_FILE where the file is damaged, of
  * another version, of another simulation, or where an output does not have what it had then; the

@@ -63,6 +63,8 @@ typedef struct sph_hdf5_def {
 
 SPH_API sph_output sph_output_hdf5(const char *directory, double interval);
 SPH_API sph_output sph_output_hdf5_def(const sph_hdf5_def *def); /* strings are copied */
+/* Bytes of the files of a frame, as the state is now, without writing them; < 0: a status. */
+SPH_API long sph_output_hdf5_size(struct sph_sim *sim, const sph_hdf5_def *def, sph_error *error);
 
 /* ---- time series -----------------------------------------------------------------------------
  * directory/series.csv: a line with the names and units of the columns, "front [m]", then a row a

@@ -68,6 +68,8 @@ SPH_API void sph_sim_add_output(sph_sim *sim, sph_output output);
  * SPH_ERR_STOPPED, outputs closed. */
 SPH_API void sph_sim_set_progress(sph_sim *sim, int (*progress)(void *ctx, sph_sim *sim),
                                   void *ctx);
+/* Why it will: "stopped WHY at t = ..." instead of "stopped on request at t = ..."; borrowed. */
+SPH_API void sph_sim_set_stop(sph_sim *sim, const char *why);
 
 /* Warning k = 0, 1, ... about terms and materials that do nothing together, or are missing, as one
  * line in text[size]; 0 behind the last.  All groups and terms should be there; once it was
@@ -126,6 +128,8 @@ typedef struct sph_sim_stats {
   double bytes; /* memory held */
 } sph_sim_stats;
 SPH_API void sph_sim_get_stats(const sph_sim *sim, sph_sim_stats *stats);
+/* sph_bound_name, but dt_fixed where the integrator has one. */
+SPH_API const char *sph_sim_bound_name(const sph_sim *sim, int bound);
 
 #ifdef __cplusplus
 }

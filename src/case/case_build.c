@@ -200,8 +200,8 @@ static int add_plain(const builder *b, sph_group *group, const sph_case_node *sh
   return told(b, shape);
 }
 
-static int add_shape(const builder *b, sph_group *group, const sph_case_node *map,
-                     const sph_case_node *shape)
+static int add_one_shape(const builder *b, sph_group *group, const sph_case_node *map,
+                         const sph_case_node *shape)
 {
   const double density = get_number(shape, "density", sph_case_material_density(map));
   if (!strcmp(shape->key, "plane"))
@@ -210,6 +210,21 @@ static int add_shape(const builder *b, sph_group *group, const sph_case_node *ma
   if (!sph_case_shape_is(map, shape)) return add_plain(b, group, shape, density);
   int status = sph_case_shape_add(b->c, b->sim, group, map, shape, density, b->error);
   return status ? status : told(b, shape);
+}
+
+/* A shape that holds nothing is a mistake, and which one it is can be said. */
+static int add_shape(const builder *b, sph_group *group, const sph_case_node *map,
+                     const sph_case_node *shape)
+{
+  const long before = sph_group_count(group);
+  int status = add_one_shape(b, group, map, shape);
+  if (status || sph_group_count(group) > before) return status;
+  if (!strcmp(shape->key, "layers"))
+    return fail(b, shape, "layers: no particles; all sides are open");
+  return sph_case_schema_fail(b->c, b->error, shape, 0, 0,
+                              "%s: no particles; no place of the lattice (dx = %g m) lies in it: a "
+                              "larger one, or a smaller spacing, is right",
+                              shape->key, sph_sim_dx(b->sim));
 }
 
 static int set_scales(const builder *b, const sph_group *group, const sph_case_node *map)
@@ -250,7 +265,7 @@ static int build_group(builder *b, const sph_case_node *map)
   if (!status && wall) status = set_boundary(b, group, map);
   if (!status) status = set_scales(b, group, map);
   if (!status && sph_group_count(group) == 0 && !(wall && is_mirror(map)))
-    status = fail(b, map, "the group has no particles");
+    status = fail(b, map, "the group has no particles: its list of shapes is empty");
   return status;
 }
 

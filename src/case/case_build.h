@@ -4,6 +4,7 @@
 #include "case_motion.h"
 #include "case_schema.h"
 #include "sphode/neighbors.h"
+#include "sphode/output.h"
 #include "sphode/sim.h"
 
 /* Walls with a motion. */
@@ -17,5 +18,10 @@ typedef struct sph_case_motions {
 
 /* The term of a checked node of `terms`; its form is borrowed from the node. */
 sph_term sph_case_build_term(const sph_case_node *map);
+/* Its snapshots; texts are borrowed. */
+sph_hdf5_def sph_case_build_output_hdf5(const sph_case *c, const char *directory,
+                                        const char *command);
+/* Time between frames of a probe; NULL: of the series [s]. */
+double sph_case_build_output_interval(const sph_case *c, const sph_case_node *probe);
 
 #endif

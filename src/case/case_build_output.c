@@ -19,7 +19,7 @@ typedef struct builder {
   const sph_case *c;
   sph_sim *sim;
   const char *directory;
-  double interval; /* of the series [s] */
+  int trial; /* frames of the start and the end alone */
 } builder;
 
 /* What is wrong with a node, told once the simulation is run. */
@@ -34,6 +34,12 @@ static const sph_case_node *first_of(const sph_case_node *map, const char *key)
 {
   const sph_case_node *list = child_of(map, key);
   return list ? list->first : NULL;
+}
+
+/* Between frames of a probe; NULL: of the series [s]. */
+static double interval_of(const builder *b, const sph_case_node *probe)
+{
+  return b->trial ? INFINITY : sph_case_build_output_interval(b->c, probe);
 }
 
 static int monitors(const builder *b, const sph_case_node *output, sph_monitor to[MOST])
@@ -60,7 +66,7 @@ static void add_series(const builder *b, const sph_case_node *output)
   sph_monitor monitor[MOST];
   sph_series_force force[MOST];
   sph_series_def def = {.directory = b->directory,
-                        .interval = b->interval,
+                        .interval = interval_of(b, NULL),
                         .monitors = monitors(b, output, monitor),
                         .monitor = monitor,
                         .force = force,
@@ -113,7 +119,7 @@ static void add_probe(const builder *b, const sph_case_node *node)
 {
   sph_probe_def def = {.directory = b->directory,
                        .name = node->key,
-                       .interval = get_number(node, "interval", b->interval),
+                       .interval = interval_of(b, node),
                        .fields = get_text(node, "fields", NULL),
                        .group = get_text(node, "group", NULL)};
   double *x = NULL;
@@ -132,32 +138,50 @@ void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directo
     sph_sim_fail(sim, SPH_ERR_ARGUMENT, "outputs of no case (NULL)");
     return;
   }
-  const sph_case_node *output = child_of(c->root, "output");
-  double end = sph_case_end(c);
-  const int compression = (int)get_number(output, "compression", 1);
-  sph_hdf5_def def = {.directory = directory,
-                      .interval = get_number(output, "snapshots", end / 20),
-                      .case_text = sph_case_text(c),
-                      .single = !strcmp(get_text(output, "precision", "double"), "single"),
-                      .compression = compression > 0 ? compression : -1,
-                      .command = command};
+  const sph_hdf5_def def = sph_case_build_output_hdf5(c, directory, command);
   sph_sim_add_output(sim, sph_output_hdf5_def(&def));
   sph_case_build_series(c, sim, directory);
 }
 
-void sph_case_build_series(const sph_case *c, sph_sim *sim, const char *directory)
+sph_hdf5_def sph_case_build_output_hdf5(const sph_case *c, const char *directory,
+                                        const char *command)
+{
+  const sph_case_node *output = child_of(c->root, "output");
+  const int compression = (int)get_number(output, "compression", 1);
+  return (sph_hdf5_def){.directory = directory,
+                        .interval = get_number(output, "snapshots", sph_case_end(c) / 20),
+                        .case_text = sph_case_text(c),
+                        .single = !strcmp(get_text(output, "precision", "double"), "single"),
+                        .compression = compression > 0 ? compression : -1,
+                        .command = command};
+}
+
+double sph_case_build_output_interval(const sph_case *c, const sph_case_node *probe)
+{
+  const sph_case_node *output = child_of(c->root, "output");
+  return get_number(probe, "interval", get_number(output, "series", sph_case_end(c) / 500));
+}
+
+static void build_small(const sph_case *c, sph_sim *sim, const char *directory, int trial)
 {
   if (!c) {
     sph_sim_fail(sim, SPH_ERR_ARGUMENT, "outputs of no case (NULL)");
     return;
   }
   const sph_case_node *output = child_of(c->root, "output");
-  const builder b = {.c = c,
-                     .sim = sim,
-                     .directory = directory,
-                     .interval = get_number(output, "series", sph_case_end(c) / 500)};
+  const builder b = {.c = c, .sim = sim, .directory = directory, .trial = trial};
   add_series(&b, output);
   for (const sph_case_node *node = first_of(output, "probes"); node; node = node->next)
     add_probe(&b, node);
   if (child_of(c->root, "events")) sph_sim_add_output(sim, sph_output_events(directory));
+}
+
+void sph_case_build_series(const sph_case *c, sph_sim *sim, const char *directory)
+{
+  build_small(c, sim, directory, 0);
+}
+
+void sph_case_build_output_trial(const sph_case *c, sph_sim *sim, const char *directory)
+{
+  build_small(c, sim, directory, 1);
 }

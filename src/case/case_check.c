@@ -15,6 +15,7 @@
 #include "words.h"
 
 static int check_value(sph_case *c, const sph_case_key *key, sph_case_node *node);
+static const sph_case_key *find_key(const char *mapping, const char *name);
 static int check_map(sph_case *c, const char *mapping, sph_case_node *node);
 
 #define FAIL(node, column, ...) sph_case_schema_fail(c, c->error, node, 1, column, __VA_ARGS__)
@@ -38,12 +39,35 @@ static int check_word(sph_case *c, const sph_case_key *key, sph_case_node *node)
   return FAIL(node, 0, "%s: found '%.40s'; %sknown: %s", key->name, node->text, w.nearest, w.known);
 }
 
+/* What others call it; NULL: nothing of this mapping. */
+static const char *alias(const char *mapping, const char *key)
+{
+  static const struct {
+    const char *key, *right;
+  } table[] = {
+      {"sphere", "ball"},    {"circle", "ball"},   {"disc", "ball"},
+      {"disk", "ball"},      {"rectangle", "box"}, {"cube", "box"},
+      {"cuboid", "box"},     {"square", "box"},    {"subtract", "difference"},
+      {"cut", "difference"}, {"stl", "surface"},   {"mesh", "surface"},
+      {"walls", "layers"},   {"dx", "spacing"},    {"resolution", "spacing"},
+      {"dim", "dimension"},  {"time", "end"},      {"t_end", "end"},
+      {"duration", "end"},   {"g", "gravity"},     {"viscosity", "viscosity-laminar"},
+      {"rho", "density"},    {"rho0", "density"},  {"type", "kind"},
+      {"c0", "sound_speed"},
+  };
+  for (size_t k = 0; k < sizeof table / sizeof *table; k++)
+    if (!strcmp(table[k].key, key) && find_key(mapping, table[k].right)) return table[k].right;
+  return NULL;
+}
+
 static int unknown_key(sph_case *c, const char *mapping, const sph_case_node *node)
 {
   sph_words w = {.wanted = node->key};
   for (int k = 0; sph_case_schema_key(k); k++)
     if (!strcmp(sph_case_schema_key(k)->mapping, mapping))
       sph_words_add(&w, sph_case_schema_key(k)->name);
+  const char *other = alias(mapping, node->key);
+  if (other) snprintf(w.nearest, sizeof w.nearest, "did you mean '%s'? ", other);
   return FAIL_KEY(node, "unknown key '%.40s' in %s; %sknown: %s", node->key, mapping, w.nearest,
                   w.known[0] ? w.known : "none");
 }
@@ -170,6 +194,31 @@ static int check_name(sph_case *c, const sph_case_node *node)
   return SPH_OK;
 }
 
+/* Where a name stands in an expression as a word; NULL: it does not. */
+static const char *word_in(const char *text, const char *name)
+{
+  const size_t n = strlen(name);
+  for (const char *at = text; (at = strstr(at, name)); at++) {
+    const int before = at > text && (isalnum((unsigned char)at[-1]) || at[-1] == '_');
+    if (!before && !isalnum((unsigned char)at[n]) && at[n] != '_') return at;
+  }
+  return NULL;
+}
+
+/* An expression that is none: does it use itself, or what is defined further down? */
+static int fail_parameter(sph_case *c, const sph_case_node *child, const sph_case_value *value)
+{
+  for (const sph_case_node *next = child; next; next = next->next) {
+    const char *at = word_in(child->text, next->key);
+    if (!at || at - child->text != value->column) continue;
+    if (next == child) return FAIL(child, value->column, "%s: it is defined by itself", child->key);
+    return FAIL(child, value->column,
+                "%s: '%.40s' is defined below, on line %d; right is above what uses it", child->key,
+                next->key, next->key_line);
+  }
+  return FAIL(child, value->column, "%s: %s", child->key, value->problem);
+}
+
 static int check_parameters(sph_case *c, const sph_case_key *key, sph_case_node *node)
 {
   if (node->kind != SPH_CASE_MAP)
@@ -180,7 +229,7 @@ static int check_parameters(sph_case *c, const sph_case_key *key, sph_case_node 
     if (check_name(c, child) || not_scalar(c, &one, child, "a number")) return SPH_ERR_PARSE;
     if (c->n >= SPH_CASE_NAMES - 1) return FAIL_KEY(child, "more than %d parameters", c->n);
     if (sph_case_value_evaluate(child->text, c->names, c->n, &value))
-      return FAIL(child, value.column, "%s: %s", child->key, value.problem);
+      return fail_parameter(c, child, &value);
     sph_case_name *name = &c->names[c->n++];
     *name = (sph_case_name){.name = child->key, .value = value.value};
     memcpy(name->power, value.power, sizeof name->power);
@@ -559,12 +608,22 @@ static int check_outputs(sph_case *c)
   return status;
 }
 
+/* Before all that has one: else what it is missed for would be blamed. */
+static int missing_dimension(sph_case *c)
+{
+  for (const sph_case_node *node = c->root->first; node; node = node->next)
+    if (!find_key("case", node->key)) return unknown_key(c, "case", node);
+  return FAIL_KEY(c->root, "missing key 'dimension' in case: %s",
+                  find_key("case", "dimension")->about);
+}
+
 int sph_case_check(sph_case *c)
 {
   sph_case_node *dimension = sph_case_reader_find(c->root, "dimension");
   sph_case_node *parameters = sph_case_reader_find(c->root, "parameters");
   if (dimension && check_value(c, find_key("case", "dimension"), dimension))
     return c->error->status;
+  if (!dimension && c->root->kind == SPH_CASE_MAP && c->root->first) return missing_dimension(c);
   c->dim = dimension ? (int)dimension->number : 3;
   if (parameters && check_value(c, find_key("case", "parameters"), parameters))
     return c->error->status;

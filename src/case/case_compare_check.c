@@ -48,16 +48,19 @@ static int check_table(const comparer *a)
 }
 
 /* velocity_x is a component of velocity. */
+static int is_named(const sph_field_info *info, const char *name)
+{
+  const size_t n = strlen(name), length = strlen(info->name);
+  if (!strcmp(info->name, name)) return 1;
+  return info->vector && n == length + 2 && !strncmp(info->name, name, length) &&
+         name[length] == '_' && strchr("xyz", name[length + 1]);
+}
+
 static int is_field(const sph_group *group, const char *name, sph_words *words)
 {
   const sph_field_info *info;
-  const size_t n = strlen(name);
   for (int k = 0; (info = sph_group_field(group, k)); k++) {
-    const size_t length = strlen(info->name);
-    if (!strcmp(info->name, name)) return 1;
-    if (info->vector && n == length + 2 && !strncmp(info->name, name, length) &&
-        name[length] == '_' && strchr("xyz", name[length + 1]))
-      return 1;
+    if (is_named(info, name)) return 1;
     sph_words_add(words, info->name);
   }
   return 0;
@@ -184,4 +187,42 @@ int sph_case_compare_check(const sph_case *c, sph_sim *sim, const char *director
     if (!status && sph_case_profile_known(&a)) status = sph_case_profile_check(&a);
   }
   return status;
+}
+
+/* ---- the picture */
+
+/* Snapshots have an energy of each fluid, elastic where it is no other. */
+static int in_snapshots(const sph_group *group, const sph_field_info *info)
+{
+  const int elastic = !strcmp(info->name, "energy") && !strcmp(sph_group_kind(group), "fluid");
+  return info->saved && (elastic || sph_group_read(group, info->name, 0));
+}
+
+int sph_case_plot_check(const sph_case *c, sph_sim *sim, sph_error *error)
+{
+  sph_error own = {0};
+  if (!error) error = &own;
+  if (!c || !sim)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "a check of the picture: no %s (NULL)",
+                         c ? "simulation" : "case");
+  const sph_case_node *field = child_of(child_of(c->root, "plot"), "field");
+  static const char *const more[] = {"id", "group", "smoothing_length"}; /* of all particles */
+  sph_words words = {.wanted = field->text};
+  const sph_group *group;
+  int fluids = 0;
+  for (int k = 0; k < 3; k++)
+    if (!strcmp(field->text, more[k])) return SPH_OK;
+  for (int g = 0; (group = sph_sim_group_get(sim, g)); g++) {
+    const sph_field_info *info;
+    const int first = !strcmp(sph_group_kind(group), "fluid") && !fluids++;
+    for (int k = 0; (info = sph_group_field(group, k)); k++) {
+      if (!in_snapshots(group, info)) continue;
+      if (is_named(info, field->text)) return SPH_OK;
+      if (first) sph_words_add(&words, info->name);
+    }
+  }
+  return sph_case_schema_fail(c, error, field, 1, 0,
+                              "field: snapshots will have no '%.60s'; %sthey have: %.400s, and "
+                              "components as velocity_x",
+                              field->text, words.nearest, words.known);
 }

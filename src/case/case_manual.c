@@ -30,7 +30,7 @@ static const char head[] =
     "coordinates `x`, `y`, `z`, those of sources and motions the time `t` and the names of "
     "`tables`, too.\n\n"
     "**Units**: kg g, m km dm cm mm um in ft, s ms us min, Hz kHz, N kN, Pa mPa hPa kPa MPa GPa "
-    "bar mbar, J kJ MJ, W mW kW, K, mol, and\ntheir products, quotients and powers.\n\n"
+    "bar mbar, J kJ MJ, W mW kW, K, mol, deg, and\ntheir products, quotients and powers.\n\n"
     "An **error** tells its place, what was found and what is right:\n\n"
     "```\ncase.yml:7:10: spacing: found s, wanted m\n"
     "case.yml:9:3: unknown key 'nam' in kernel; did you mean 'name'? known: name, h_over_dx\n```\n";

@@ -144,12 +144,17 @@ static sph_shape *changed(const builder *b, const sph_case_node *node)
 
 static int in_dimension(const builder *b, const sph_case_node *node)
 {
-  static const char *const only[][2] = {
-      {"polygon", "2"}, {"prism", "3"}, {"cylinder", "3"}, {"cone", "3"}, {"surface", "3"}};
+  static const char *const only[][4] = {/* what is right in 1D, 2D, 3D */
+                                        {"polygon", "box", NULL, "prism"},
+                                        {"prism", "box", "polygon", NULL},
+                                        {"cylinder", "box", "ball: a disc", NULL},
+                                        {"cone", "box", "polygon", NULL},
+                                        {"surface", "box", "polygon", NULL}};
   for (size_t k = 0; k < sizeof only / sizeof *only; k++)
-    if (!strcmp(node->key, only[k][0]) && b->c->dim != only[k][1][0] - '0') {
-      sph_case_schema_fail(b->c, b->error, node, 0, 0, "%s: a shape of %s dimensions, here are %d",
-                           node->key, only[k][1], b->c->dim);
+    if (!strcmp(node->key, only[k][0]) && only[k][b->c->dim]) {
+      sph_case_schema_fail(b->c, b->error, node, 0, 0,
+                           "%s: a shape of %d dimensions, here are %d; right is %s", node->key,
+                           only[k][3] ? 2 : 3, b->c->dim, only[k][b->c->dim]);
       return 0;
     }
   return 1;

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "words.h"
+
 static const struct {
   const char *name;
   sph_case_unit unit;
@@ -39,6 +41,21 @@ static const sph_case_unit *find(const char *word, size_t length)
 }
 
 int sph_case_unit_known(const char *word, size_t length) { return find(word, length) != NULL; }
+
+const char *sph_case_unit_nearest(const char *word, char *text, size_t size)
+{
+  sph_words w = {.wanted = word};
+  size_t letters = strlen(word);
+  while (letters > 0 && isdigit((unsigned char)word[letters - 1])) letters--;
+  if (word[letters] && find(word, letters)) { /* m3 */
+    snprintf(text, size, "did you mean %.*s^%s? ", (int)letters, word, word + letters);
+    return text;
+  }
+  for (size_t k = 0; k < sizeof known / sizeof *known && word[1]; k++)
+    if (strlen(known[k].name) > 1) sph_words_add(&w, known[k].name);
+  snprintf(text, size, "%s", w.nearest);
+  return text;
+}
 
 static size_t word_length(const char *text)
 {

@@ -17,6 +17,8 @@ size_t sph_case_unit_parse(const char *text, int (*is_name)(void *ctx, const cha
                            void *ctx, sph_case_unit *unit);
 /* Whether a word is a unit, by itself. */
 int sph_case_unit_known(const char *word, size_t length);
+/* "did you mean m^3? " of a word that is no unit, or "", in text[size]. */
+const char *sph_case_unit_nearest(const char *word, char *text, size_t size);
 /* "m/s^2", "kg/m^3", "1" of the exponents. */
 void sph_case_unit_write(const double power[SPH_CASE_BASES], char *text, size_t size);
 

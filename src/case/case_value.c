@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "memory.h"
+#include "words.h"
 
 /* Units are checked without a parser of our own: the expression is evaluated again with the
  * kilogram, the metre and the second made 4 times larger and smaller.  A value that grows as a
@@ -75,6 +76,23 @@ static size_t unit_one(const char *text)
   return n && text[n] == '/' ? n : 0;
 }
 
+/* A word behind a number that is no unit; 0. */
+static size_t no_unit(formula *f, size_t k, const char *word)
+{
+  size_t n = 0;
+  char text[42], meant[80];
+  while (isalnum((unsigned char)word[n]) || word[n] == '_') n++;
+  snprintf(text, sizeof text, "%.*s", (int)(n < 40 ? n : 40), word);
+  if (is_name(f, text, strlen(text)))
+    problem(f, k, "'%s' is not a unit; a product with a name needs *", text);
+  else
+    problem(f, k,
+            "'%s' is not a unit; %sknown are kg, m, s, K, mol, N, Pa, J, W with their multiples as "
+            "mm, kPa, deg, and products as m/s^2; a product with a name needs *",
+            text, sph_case_unit_nearest(text, meant, sizeof meant));
+  return 0;
+}
+
 /* The number at text[k], with the unit behind it; the characters taken, 0: a problem. */
 static size_t number(formula *f, size_t k, const double scale[SPH_CASE_BASES])
 {
@@ -90,22 +108,28 @@ static size_t number(formula *f, size_t k, const double scale[SPH_CASE_BASES])
     snprintf(piece, sizeof piece, "(%.17g*%.17g)", v, unit.factor * scaling(unit.power, scale));
     return put(f, k, piece, strlen(piece)) ? 0 : digits + gap + taken;
   }
-  if (isalpha((unsigned char)end[gap]) || end[gap] == '_') {
-    size_t n = 0;
-    while (isalnum((unsigned char)end[gap + n]) || end[gap + n] == '_') n++;
-    problem(
-        f, k + digits + gap,
-        "'%.*s' is not a unit; known are kg, m, s, K, mol, N, Pa, J, W with their multiples as mm, "
-        "kPa, and products as m/s^2; a product with a name needs *",
-        (int)(n < 40 ? n : 40), end + gap);
-    return 0;
-  }
+  if (isalpha((unsigned char)end[gap]) || end[gap] == '_')
+    return no_unit(f, k + digits + gap, end + gap);
   if (gap && isdigit((unsigned char)end[gap])) {
     problem(f, k + digits + gap, "a number behind a number; a unit without a numerator is 1/s");
     return 0;
   }
   snprintf(piece, sizeof piece, "(%.17g)", v);
   return put(f, k, piece, strlen(piece)) ? 0 : digits;
+}
+
+/* Powers, degrees, dots, as they are printed. */
+static int not_ascii(formula *f, size_t k)
+{
+  static const char *const right[][2] = {
+      {"\xc2\xb2", "^2"},       {"\xc2\xb3", "^3"}, {"\xc2\xb0", "deg"},
+      {"\xc2\xb7", "*"},        {"\xc3\x97", "*"},  {"\xc2\xb5", "u, as um"},
+      {"\xce\xbc", "u, as um"}, {"\xcf\x80", "pi"}, {"\xe2\x88\x92", "-"},
+  };
+  for (size_t r = 0; r < sizeof right / sizeof *right; r++)
+    if (!strncmp(f->text + k, right[r][0], strlen(right[r][0])))
+      return problem(f, k, "found '%s'; right is %s", right[r][0], right[r][1]);
+  return problem(f, k, "found a character that is not ASCII");
 }
 
 /* What muParser would take and nobody means: assignments, lists, strings. */
@@ -119,7 +143,7 @@ static int forbidden(formula *f)
       return problem(f, k, "found '='; a value is an expression, == compares");
     if (c == ',' && depth <= 0) return problem(f, k, "found ','; a value is one number");
     if (c == '"') return problem(f, k, "found '\"'; a value is a number or an expression");
-    if ((unsigned char)c >= 128) return problem(f, k, "found a character that is not ASCII");
+    if ((unsigned char)c >= 128) return not_ascii(f, k);
   }
   return SPH_OK;
 }
@@ -159,6 +183,22 @@ static const char *expected(formula *f, char text[60])
   return text;
 }
 
+static int unknown_word(formula *f, size_t k, const char *word)
+{
+  static const char *const functions[] = {"sin",   "cos",   "tan",   "asin", "acos", "atan",
+                                          "atan2", "sinh",  "cosh",  "tanh", "exp",  "log",
+                                          "ln",    "log2",  "log10", "sqrt", "sign", "rint",
+                                          "abs",   "min",   "max",   "sum",  "avg",  "pi",
+                                          "asinh", "acosh", "atanh"};
+  sph_words w = {.wanted = word};
+  for (size_t n = 0; n < sizeof functions / sizeof *functions && word[1]; n++)
+    sph_words_add(&w, functions[n]);
+  for (int n = 0; n < f->n && word[1]; n++) sph_words_add(&w, f->names[n].name);
+  const size_t n = strlen(w.nearest); /* with a space behind it */
+  return problem(f, k, "'%s' is no parameter and no function, nor a table of tables%s%.*s", word,
+                 n ? "; " : "", n ? (int)n - 1 : 0, w.nearest);
+}
+
 static int muparser_problem(formula *f, muParserHandle_t parser)
 {
   int at = mupGetErrorPos(parser);
@@ -170,8 +210,7 @@ static int muparser_problem(formula *f, muParserHandle_t parser)
     return strlen(token) == 1 && strchr("xyzt", token[0])
                ? problem(f, (size_t)f->origin[at], "'%s' is not known here; right is %s", token,
                          expected(f, right))
-               : problem(f, (size_t)f->origin[at],
-                         "'%s' is no parameter and no function, nor a table of tables", token);
+               : unknown_word(f, (size_t)f->origin[at], token);
   char *tail = strstr(message, " at position"); /* of the translated text: would mislead */
   if (tail) *tail = 0;
   return problem(f, (size_t)f->origin[at], "not an expression: %s", message);

@@ -204,14 +204,33 @@ void sph_checkpoint_set(sph_sim *sim, const sph_checkpoint_def *def)
   sph_sim_keep_saver(sim, (sph_saver){.save = save, .ctx = w, .free = release});
 }
 
+static int ready(sph_sim *sim, const char *what)
+{
+  if (sph_sim_status(sim)) return sph_sim_status(sim);
+  if (sim->saver.save != save)
+    return sph_sim_fail(sim, SPH_ERR_STATE, "%s: sph_checkpoint_set comes first", what);
+  if (!sim->prepared || sim->shown != sim->y)
+    return sph_sim_fail(sim, SPH_ERR_STATE, "%s: right is between steps", what);
+  return SPH_OK;
+}
+
 int sph_checkpoint_write(sph_sim *sim)
 {
   sph_error error = {0};
-  if (sph_sim_status(sim)) return sph_sim_status(sim);
-  if (sim->saver.save != save)
-    return sph_sim_fail(sim, SPH_ERR_STATE, "sph_checkpoint_write: sph_checkpoint_set comes first");
-  if (!sim->prepared || sim->shown != sim->y)
-    return sph_sim_fail(sim, SPH_ERR_STATE, "sph_checkpoint_write: right is between steps");
-  int status = write_now(sim->saver.ctx, sim, &error);
+  int status = ready(sim, "sph_checkpoint_write");
+  if (status) return status;
+  status = write_now(sim->saver.ctx, sim, &error);
   return status ? sph_sim_fail(sim, status, "%s", error.text) : SPH_OK;
+}
+
+long sph_checkpoint_size(sph_sim *sim)
+{
+  sph_error error = {0};
+  size_t size = 0;
+  int status = ready(sim, "sph_checkpoint_size");
+  if (status) return status;
+  const writer *w = sim->saver.ctx;
+  unsigned char *image = sph_checkpoint_image("(its size)", sim, &w->def, &size, &error);
+  sph_memory_free(image);
+  return image ? (long)size : sph_sim_fail(sim, error.status, "%s", error.text);
 }

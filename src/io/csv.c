@@ -12,7 +12,7 @@ typedef struct table {
   FILE *file;
   char line[8192];
   long number; /* of the line, from 1 */
-  int too_long;
+  int too_long, columns;
 } table;
 
 /* The next line that is neither empty nor a comment; 0 at the end, or at one that is too long. */
@@ -74,6 +74,15 @@ static int holds(const table *t, int k, const char *word)
   return at && strlen(word) == length && !strncmp(at, word, length);
 }
 
+/* Columns of the line, but for empty ones at its end. */
+static int columns_of(const table *t)
+{
+  int n = 0, k = 0;
+  for (const char *at; (at = field(t, k)); k++)
+    if (*at && *at != ',') n = k + 1;
+  return n;
+}
+
 /* Behind the last line that next_line gave. */
 static int all_read(const table *t, sph_error *error)
 {
@@ -94,6 +103,12 @@ static int read_values(table *t, int where, const char *is, int column, double *
     if (where >= 0 && !holds(t, where, is)) continue;
     const char *at = field(t, column);
     char *end = NULL;
+    const int found = columns_of(t);
+    if (found > t->columns)
+      return sph_error_set(error, SPH_ERR_PARSE,
+                           "%s:%ld: it has %d columns, the first line names %d; decimals have a "
+                           "point, not a comma",
+                           t->path, t->number, found, t->columns);
     if (!at)
       return sph_error_set(error, SPH_ERR_PARSE, "%s:%ld: it has no column %d", t->path, t->number,
                            column + 1);
@@ -133,6 +148,16 @@ static int is_row(const table *t)
   return numbers;
 }
 
+static int check_separator(const table *t, sph_error *error)
+{
+  const int tab = strchr(t->line, '\t') != NULL;
+  if (strchr(t->line, ',') || !(tab || strchr(t->line, ';'))) return SPH_OK;
+  return sph_error_set(error, SPH_ERR_PARSE,
+                       "%s:%ld: columns with a %s between them; right are commas, and points in "
+                       "decimals",
+                       t->path, t->number, tab ? "tabulator" : "semicolon");
+}
+
 /* Opens the table and reads its header; t is there but where memory was not. */
 static int start(table **to, const char *path, sph_error *error)
 {
@@ -143,7 +168,12 @@ static int start(table **to, const char *path, sph_error *error)
   if (!t->file)
     return sph_error_set(error, SPH_ERR_FILE, "cannot read %s: %s", t->path,
                          strerror(path ? errno : ENOENT));
-  if (next_line(t) && !is_row(t)) return SPH_OK;
+  const int line = next_line(t);
+  if (line && check_separator(t, error)) return SPH_ERR_PARSE;
+  if (line && !is_row(t)) {
+    t->columns = columns_of(t);
+    return SPH_OK;
+  }
   int status = all_read(t, error);
   if (!status && t->line[0])
     return sph_error_set(error, SPH_ERR_PARSE,

@@ -214,3 +214,22 @@ sph_output sph_output_hdf5(const char *directory, double interval)
 {
   return sph_output_hdf5_def(&(sph_hdf5_def){.directory = directory, .interval = interval});
 }
+
+long sph_output_hdf5_size(sph_sim *sim, const sph_hdf5_def *def, sph_error *error)
+{
+  static const sph_hdf5_def nothing;
+  char name[40];
+  size_t size = 0, walls = 0;
+  if (!sim)
+    return sph_error_set(error, SPH_ERR_ARGUMENT, "the size of a snapshot: no simulation (NULL)");
+  file_name(name, SPH_FLUIDS, 0);
+  void *image = sph_snapshot_image(name, sim, def ? def : &nothing, &size, error);
+  int status = image ? SPH_OK : SPH_ERR_MEMORY;
+  sph_memory_free(image);
+  if (!status && has_walls(sim)) {
+    image = sph_snapshot_image_walls(name, &walls, error);
+    status = image ? SPH_OK : SPH_ERR_MEMORY;
+    sph_memory_free(image);
+  }
+  return status ? status : (long)(size + walls);
+}

@@ -212,13 +212,13 @@ static void json_comparisons(sph_text *t, const facts *f)
 static void line(sph_text *t, const char *name) { sph_text_add(t, "%-13s", name); }
 
 /* Which limit bound which part of the steps, and what they cost. */
-static void text_steps(sph_text *t, const sph_step_stats *s)
+static void text_steps(sph_text *t, const sph_sim *sim, const sph_step_stats *s)
 {
   int listed = 0;
   line(t, "bound by");
   for (int k = 0; k < SPH_BOUND_COUNT; k++)
     if (s->bound_by[k])
-      sph_text_add(t, "%s%s %.3g %%", listed++ ? ", " : "", sph_bound_name(k),
+      sph_text_add(t, "%s%s %.3g %%", listed++ ? ", " : "", sph_sim_bound_name(sim, k),
                    100.0 * (double)s->bound_by[k] / (double)s->steps);
   sph_text_add(t, "%s\n", listed ? "" : "nothing yet");
   line(t, "repeated");
@@ -256,7 +256,7 @@ static void text_run(sph_text *t, const facts *f)
   line(t, "time");
   sph_text_add(t, "%.6g s in %ld steps of %.3g to %.3g s, %s\n", sph_sim_time(f->sim), s->steps,
                s->dt_smallest, s->dt_largest, sph_sim_integrator(f->sim));
-  text_steps(t, s);
+  text_steps(t, f->sim, s);
   line(t, "work");
   sph_text_add(t, "%.3g pairs in %.3g s: %.3g million pairs/s; %.3g MB\n", f->stats.pairs,
                f->stats.seconds, 1e-6 * pairs_per_second(f), 1e-6 * f->stats.bytes);

@@ -308,6 +308,17 @@ void sph_sim_add_modifier(sph_sim *sim, sph_modifier modifier)
   m->modifier.name = m->name;
 }
 
+const char *sph_sim_bound_name(const sph_sim *sim, int bound)
+{
+  const int fixed = sim && sim->integrator_def.dt_fixed > 0;
+  return fixed && bound == SPH_BOUND_USER ? "dt_fixed" : sph_bound_name(bound);
+}
+
+void sph_sim_set_stop(sph_sim *sim, const char *why)
+{
+  if (sim) sim->why = why;
+}
+
 double sph_sim_time(const sph_sim *sim) { return sim ? sim->time : 0; }
 int sph_sim_dim(const sph_sim *sim) { return sim ? sim->dim : 0; }
 double sph_sim_dx(const sph_sim *sim) { return sim ? sim->dx : 0; }

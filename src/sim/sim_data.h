@@ -139,6 +139,7 @@ struct sph_sim {
   char method[SPH_METHOD_MAX], linear[SPH_METHOD_MAX], fast[SPH_METHOD_MAX];
   sph_scheme scheme; /* the user's own, copied; its name is method */
   int (*progress)(void *ctx, sph_sim *sim);
+  const char *why; /* it stops the run; NULL: "on request"; borrowed */
   void *progress_ctx;
   int kepts;
   sph_keeping kept[SPH_KEPT_MAX];

@@ -111,9 +111,12 @@ static int say_terms(sph_sim *sim, sph_error *failure, N_Vector ydot)
   return status;
 }
 
-static const char *remedy(int bound)
+static const char *remedy(const sph_sim *sim)
 {
-  switch (bound) {
+  if (sim->integrator_def.dt_fixed > 0)
+    return "a smaller dt_fixed, or none: then steps are as long as their limits allow, and are "
+           "halved where they fail";
+  switch (sph_integrator_bound(sim->integrator)) {
   case SPH_BOUND_CFL:
     return "a larger sound speed (ten times the largest speed), more viscosity, a smaller cfl";
   case SPH_BOUND_VISCOUS:
@@ -133,7 +136,7 @@ static void describe(sph_sim *sim, sph_error *failure)
     if (sim->suspect.known) {
       say_particle(sim, failure, total);
       say_terms(sim, failure, ydot);
-      say(failure, ". What helps: %s", remedy(sph_integrator_bound(sim->integrator)));
+      say(failure, ". What helps: %s", remedy(sim));
     }
   }
   if (ydot) N_VDestroy(ydot);

@@ -204,7 +204,8 @@ static int run(sph_sim *sim, double t_end)
     if (!status && sim->progress && sim->progress(sim->progress_ctx, sim) && sim->time < t_end) {
       status = sph_sim_keep_save(sim, 1);
       if (!status)
-        status = sph_sim_fail(sim, SPH_ERR_STOPPED, "stopped on request at t = %g s", sim->time);
+        status = sph_sim_fail(sim, SPH_ERR_STOPPED, "stopped %s at t = %g s",
+                              sim->why ? sim->why : "on request", sim->time);
     }
   }
   for (int k = 0; !status && k < sim->outlets; k++) /* INFINITY: start and end only */

@@ -7,7 +7,7 @@ const char *sph_bound_name(int bound)
       [SPH_BOUND_FORCE] = "force", [SPH_BOUND_CONDUCTION] = "conduction",
       [SPH_BOUND_DRAG] = "drag",   [SPH_BOUND_SWITCH] = "switch",
       [SPH_BOUND_ERROR] = "error", [SPH_BOUND_STOP] = "stop",
-      [SPH_BOUND_USER] = "user",   [SPH_BOUND_RETRY] = "retry",
+      [SPH_BOUND_USER] = "dt_max", [SPH_BOUND_RETRY] = "retry",
   };
   return bound >= 0 && bound < SPH_BOUND_COUNT ? name[bound] : "";
 }

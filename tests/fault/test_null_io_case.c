@@ -95,6 +95,20 @@ static void no_case(void **state)
   assert_non_null(strstr(sph_sim_error(sim), "no case (NULL)"));
   sph_sim_free(sim);
   sph_case_build_outputs(NULL, NULL, NULL, NULL);
+  sph_case_size size;
+  told(&e, sph_case_size_get(NULL, NULL, NULL, 0, &size, &e), "no case (NULL)");
+  told(&e, sph_case_plot_check(NULL, NULL, &e), "no case (NULL)");
+  assert_int_equal(sph_case_warning_places(NULL, NULL, 0, png, sizeof png), 0);
+  assert_int_equal(sph_case_place(NULL, "probe a:", png, sizeof png), 0);
+  told(&e, (int)sph_output_hdf5_size(NULL, NULL, &e), "no simulation (NULL)");
+  assert_true(sph_checkpoint_size(NULL) < 0);
+  sim = make();
+  assert_int_equal(sph_checkpoint_size(sim), SPH_ERR_STATE);
+  assert_non_null(
+      strstr(sph_sim_error(sim), "sph_checkpoint_size: sph_checkpoint_set comes first"));
+  sph_sim_free(sim);
+  sph_sim_set_stop(NULL, "x");
+  assert_string_equal(sph_sim_bound_name(NULL, SPH_BOUND_USER), "dt_max");
 }
 
 /* What failed to be read tells its own reason at the end of the chain. */

@@ -50,7 +50,9 @@ good=0
 for c in run restart check info plot work-precision; do run 0 "$sphode" $c --help && grep -q "^Usage: sphode $c " out || good=1; done
 ok $good "each command has a help"
 usage "no command" "no command"
-usage "an unknown command" "'rnu' is no command" rnu
+usage "an unknown command" "'rnu' is no command; did you mean 'run'?" rnu
+usage "another one" "'chekc' is no command; did you mean 'check'?" chekc
+usage "one that is like none" "'cheese' is no command$" cheese
 usage "an unknown option" "unrecognized option '--frobnicate'" run --frobnicate "$dam"
 usage "an option of another command" "check takes no --force" check --force "$dam"
 usage "an option without its value" "requires an argument" run "$dam" --output
@@ -95,8 +97,11 @@ for r in rows:
     assert abs(r["sigma-k"] * e["h"] / (rows[0 if r["dim"] == 2 else 8]["sigma-k"] * 0.015) - 1) < 1e-6
     assert abs(o["support"] / o["h"] - round(o["support"] / o["h"])) < 1e-6 and o["fits"]' <out; }
 ok $? "... as JSON: sigma_k h is the same for all"
-run 2 "$sphode" info kernels --spacing 1cm && grep -q -e "--spacing 1cm: wanted a number > 0" err && [[ ! -s out ]]
+run 2 "$sphode" info kernels --spacing 1cn && grep -q -e "--spacing 1cn: wanted a length > 0, as 0.01" err && [[ ! -s out ]]
 ok $? "a spacing that is none"
+"$sphode" info kernels --spacing 0.01 >metres
+run 0 "$sphode" info kernels --spacing 1cm && cmp out metres && run 0 "$sphode" info kernels --spacing "10 mm" && cmp out metres
+ok $? "one in centimetres"
 usage "a dimension too many" "from 1 to 3" info kernels --spacing 1 --dim 4
 run 2 "$sphode" info kernels --dim 2 && grep -q -e "wants --spacing" err && [[ ! -s out ]]
 ok $? "a dimension without spacing"

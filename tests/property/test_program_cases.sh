@@ -86,6 +86,23 @@ ok $? "one that is right"
 run 1 "$sphode" check tank2.yml --set "compare=[{name: a, quantity: front, reference: {csv: {file: front.csv, y: back}}}]" && grep -q "back" err
 ok $? "a table without its column"
 
+fails "a picture of no field" "field: snapshots will have no 'velocit'; did you mean 'velocity'? they have: position, velocity, density" plot.field=velocit
+fails "snapshots too many for a step" "snapshots: 1e-12 s is too short for steps of 0.00[0-9]* s; right is at least" output.snapshots=1e-12
+fails "rows too many for a step" "series: 1e-12 s is too short for steps" output.series=1e-12
+fails "frames of a probe too many for a step" "interval: 1e-12 s is too short for steps" output.probes.column.interval=1e-12
+run 1 "$sphode" run tank2.yml --set plot.field=presure -o unmade && grep -q "field: snapshots will have no 'presure'; did you mean 'pressure'" err && [[ ! -e unmade ]]
+ok $? "a run says so before it begins"
+sed 's/column: {line.*/column: {at: [100, 0]}/' tank2.yml >place.yml
+run 1 "$sphode" check place.yml && grep -q "^sphode: place.yml:52:5: probe column: its places lie" err && run 1 "$sphode" run place.yml -q &&
+  grep -q "^sphode: place.yml:52:5: probe column: its places lie" err && ! grep -q checkpoint err
+ok $? "what outputs say has its place in the file"
+sed 's/lower: \[0, 0\], upper: \[2\*H, H\]/lower: [0, -0.95*dx], upper: [2*H, H]/' tank2.yml >place.yml
+run 1 "$sphode" check place.yml && grep -q "^sphode: place.yml:20:3: [0-9]* particles start nearer than 0.1 dx" err
+ok $? "and what particles too near say"
+sed '/^title:/d' tank2.yml >place.yml
+run 0 "$sphode" check place.yml && [[ $(head -1 out) == "water "* ]]
+ok $? "a case without a title begins with its groups"
+
 warns() { # what the warning says, --set...
   local says=$1 sets=()
   shift
@@ -122,6 +139,55 @@ warns "series: 2 s is longer than the run of 1 s" "output.series=2 s"
 warns "interval: 2 s is longer than the run of 1 s" "output.probes={a: {at: [0, 0], interval: 2 s}}"
 warns "interval: 3 s is longer than the run of 1 s" "checkpoint.interval=3 s"
 ok $good "events that never happen, periods longer than the run"
+good=0
+warns "snapshots: 1e-07 s makes 1e+07 snapshots in the run of 1 s; a right number is below 10000" output.snapshots=1e-7
+warns "the run writes [0-9.]* TB, but [0-9.]* [A-Z]*B are free here; fewer snapshots are right" output.snapshots=1e-8
+warns "series: 5e-07 s makes 2e+06 rows of series.csv" output.series=5e-7
+warns "interval: 5e-07 s makes 2e+06 frames of the probe" output.probes.column.interval=5e-7
+warns "interval: 5e-05 s makes 2e+04 checkpoints" checkpoint.interval=5e-5
+ok $good "outputs that fill the disk"
+good=0
+warns "hydrostatic: there is no gravity among the terms to hold this pressure" "terms.gravity.acceleration=[0, 0]"
+warns "hydrostatic: the pressure rises downwards along y, but gravity acts along (9.81, 0, 0)" "terms.gravity.acceleration=[9.81, 0]"
+warns "hydrostatic: the pressure rises downwards along y, but gravity acts upwards: 9.81 m/s^2" "terms.gravity.acceleration=[0, 9.81]"
+warns "gravity: 9.81 m/s^2, but gravity among the terms is 1.62 m/s^2" "terms.gravity.acceleration=[0, -1.62]"
+ok $good "a column that gravity does not hold"
+good=0
+warns "angle: 30 are radians, 4.77 turns; in degrees right is 30 deg" \
+  "groups.water.shapes=[{rotate: {of: {box: {lower: [0.5, 0.2], upper: [0.7, 0.4]}}, angle: 30, about: [0.6, 0.4]}}]"
+still="the wall stands still; right"
+warns "angle: it does not change with t: $still" "groups.tank.boundary={motion: {rotation: {centre: [0, 0], angle: 30 deg}}}"
+warns "displacement: none of them changes with t: $still" "groups.tank.boundary={motion: {displacement: [1 cm, 0]}}"
+ok $good "degrees that are radians, and motions that are none"
+good=0
+warns "p: its place x = 100 m is far outside of all particles, which are from -0.0375 to 1.537 m" "output.monitors.p={type: pressure, at: [100, 0]}"
+warns "g: its place x = -50 m is far outside" "output.monitors.g={type: gauge, at: [-50 m, 0]}"
+warns "a: its front, at x = 50 m is far outside" "events={a: {when: {front: {at: 50 m}}}}"
+warns "b: its point y = 30 m is far outside" "events={b: {when: {wet: [0, 30]}}}"
+ok $good "places far outside"
+good=0
+for right in "output.monitors={p: {type: pressure, at: [2, 1]}, g: {type: gauge, at: [1, 1000]}}" "events={a: {when: {front: {at: 2 m}}}}" "terms.gravity.acceleration=[0, -9.5]" \
+  "output.snapshots=1e-4" plot.field=velocity_y plot.field=group "groups.tank.boundary={motion: {rotation: {centre: [0, 0], angle: 1 deg*sin(t/(1 s))}}}" \
+  "groups.water.shapes=[{rotate: {of: {box: {lower: [0.5, 0.05], upper: [0.7, 0.25]}}, angle: 390 deg, about: [0.6, 0.15]}}]"; do
+  run 0 "$sphode" check tank2.yml --set "$right" && grep -q "right, 0 warnings" out || { good=1; grep warning out; }
+done
+ok $good "and what is right has none of them"
+
+run 0 "$sphode" run tank2.yml --set output.snapshots=1e-8 --set output.series=1 --set output.probes.column.interval=1 --set checkpoint.keep=0 --set "events={a: {when: {time: 1e-9}, stop: true}}" \
+  --set integrator.dt_max=2e-9 -o full && grep -q "^sphode: warning: the run writes [0-9.]* TB of snapshots, or more, but [0-9.]* [A-Z]*B are free in full; fewer are right" err
+ok $? "a run says that the disk is too small, too"
+
+# What it says of the files, beside those of the run.
+size() { cat "$@" 2>/dev/null | wc -c; }
+near() { awk -v a="$1" -v b="$2" -v most="$3" 'BEGIN { e = a / b - 1; exit !(e < most && -e < most) }' || echo "# $1 said, $2 found"; }
+run 0 "$sphode" check tank2.yml
+read -r snapshots each rows row frames frame checkpoints checkpoint < <(sed -n 's/^output  *\([0-9]*\) snapshots of \([0-9.]*\) kB, \([0-9]*\) rows of \([0-9]*\) B in series.csv, '\
+'\([0-9]*\) frames of \([0-9.]*\) kB in probe_column.csv, at most \([0-9]*\) checkpoints of \([0-9.]*\) kB; .* in all$/\1 \2 \3 \4 \5 \6 \7 \8/p' out)
+run 0 "$sphode" run tank2.yml -q -o written && set -- written/checkpoint_* && [[ $(ls written/snapshot_*.hdf | wc -l) == "$snapshots" ]] &&
+  [[ $(($(wc -l <written/series.csv) - 1)) == "$rows" && $(grep -c '^$' written/probe_column.csv) == "$frames" ]] && (($# <= checkpoints)) &&
+  [[ -z $(near "$(awk "BEGIN { print 1000 * $each * $snapshots }")" "$(size written/snapshot_*.hdf written/walls_*.hdf)" 0.15; near "$((row * rows))" "$(size written/series.csv)" 0.15
+    near "$(awk "BEGIN { print 1000 * $frame * $frames }")" "$(size written/probe_column.csv)" 0.6; near "$(awk "BEGIN { print 1000 * $checkpoint }")" "$(size "$1")" 0.05) ]]
+ok $? "counts and bytes are those that a run writes"
 run 0 "$sphode" run tank2.yml --set "run.end=1 ms" --set "groups.water.viscosity=1 mPa s" -o warned && cp err said
 run 0 "$sphode" check tank2.yml --set "run.end=1 ms" --set "groups.water.viscosity=1 mPa s"
 sed -n 's/^warning  */sphode: warning: /p' out >wanted
@@ -133,8 +199,12 @@ run 0 "$sphode" check tank2.yml --set "$event" --set 'groups.tank.boundary={moti
   grep -q "^event        fill: the front of all fluids passes x = 1.2 m, once: snapshot$" out &&
   grep -q "^event        turn: t = 0.5 s: gravity (0, -9.81) -> (0, -1), delta 0.1 -> 0.2, velocity of tank -> (1, 0), stop$" out
 ok $? "what events wait for, do and change"
-run 0 "$sphode" check tank2.yml --set integrator.method=leapfrog && grep -q "^bound by  *cfl [0-9]* %" out
+run 0 "$sphode" check tank2.yml --set integrator.method=leapfrog && grep -q "^bound by  *cfl [0-9]* %" out &&
+  run 0 "$sphode" check tank2.yml --set integrator.dt_max=1e-5 && grep -q "^bound by  *dt_max 100 %$" out &&
+  run 0 "$sphode" check tank2.yml --set integrator.dt_fixed=1e-5 && grep -q "^bound by  *dt_fixed 100 %$" out
 ok $? "and what bounds the steps"
+run 1 "$sphode" check tank2.yml --set "integrator.dt_fixed=5 ms" && grep -q "What helps: a smaller dt_fixed, or none" err
+ok $? "fixed steps that fail"
 if command -v gnuplot >/dev/null; then
   run 0 "$sphode" check tank2.yml --picture a.png && [[ $(head -c 4 a.png | tail -c 3) == PNG ]] && grep -q "groups\|water" a.gp &&
     [[ $(grep -c '^$' a.dat) == 4 ]]

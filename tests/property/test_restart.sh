@@ -134,11 +134,13 @@ ok $? "and refuses what makes another simulation"
 # However slow the machine, each life makes a step.
 run 4 limit "$sphode" run "${case[@]}" --set run.time_limit=0.1s
 status=$? lives=1
+grep -q "stopped before run.time_limit is over at t = " limit/out/summary.json
+limited=$?
 until [[ $status != 0 || $lives == 400 ]]; do
   (cd limit && exec "$sphode" restart out -q >../out 2>../err)
   status=$(($? - 4)) lives=$((lives + 1))
 done
-[[ $status == -4 ]] && series limit
+[[ $status == -4 && $limited == 0 ]] && series limit
 ok $? "a time limit stops it in time, with exit status 4, and it goes on"
 
 # A queue that tells its end in the environment is like a time limit, which leaves a minute for what is behind the last step.
@@ -260,7 +262,8 @@ cp -r base hurt
 head -c 100 base/out/series.csv >hurt/out/series.csv
 run 1 hurt "$sphode" restart out -q && grep -q "series.csv has 100 bytes, had [0-9]* then: rows are missing" err
 ok $? "rows that are missing are told"
-run 1 . "$sphode" restart none/out && grep -q "none/out holds no checkpoint" err
+run 1 . "$sphode" restart none/out && grep -q "none/out holds no checkpoint (checkpoint_\*.hdf); sphode run none/out/case.yml -o" err && mkdir bare &&
+  run 1 . "$sphode" restart bare && grep -q "bare holds no checkpoint (checkpoint_\*.hdf), nor a case.yml: right is the directory of a run" err
 ok $? "a directory without checkpoints"
 run 1 . "$sphode" restart nowhere && grep -q "nowhere: No such file" err
 ok $? "no directory"

@@ -1,0 +1,87 @@
+/* Where a case looks: monitors and events far from all particles see nothing. */
+#include <math.h>
+
+#include "case_warning.h"
+#include "sphode/case.h"
+
+#define child_of sph_case_reader_find
+#define get_text sph_case_reader_text
+
+/* Of all particles at the start, along each direction [m]. */
+typedef struct box {
+  double low[3], high[3];
+} box;
+
+static box box_of(const sph_sim *sim)
+{
+  box b;
+  const sph_group *group;
+  for (int d = 0; d < 3; d++) b.low[d] = INFINITY, b.high[d] = -INFINITY;
+  for (int k = 0; (group = sph_sim_group_get(sim, k)); k++)
+    for (int d = 0; d < sph_sim_dim(sim); d++) {
+      const double *x = sph_group_read(group, "position", d);
+      for (long i = 0; x && i < sph_group_count(group); i++)
+        b.low[d] = fmin(b.low[d], x[i]), b.high[d] = fmax(b.high[d], x[i]);
+    }
+  return b;
+}
+
+/* Farther outside than the box is long, as a probe must not be: a wrong unit, or a wrong sign. */
+static int is_far(const sph_sim *sim, const box *b, int d, double x)
+{
+  const double more = fmax(b->high[d] - b->low[d], sph_sim_dx(sim));
+  return !sph_sim_periodic(sim, d, NULL, NULL) &&
+         !(x >= b->low[d] - more && x <= b->high[d] + more);
+}
+
+/* node: whose place it is, which "what" says. */
+static void look_at_place(sph_case_finder *f, const sph_sim *sim, const box *b,
+                          const sph_case_node *node, const char *what, const double *x, int from,
+                          int to)
+{
+  for (int d = from; d < to; d++) {
+    if (!is_far(sim, b, d, x[d])) continue;
+    sph_case_warning_found(
+        f, node, "%s %c = %g m is far outside of all particles, which are from %.4g to %.4g m",
+        what, 'x' + d, x[d], b->low[d], b->high[d]);
+    return;
+  }
+}
+
+/* A gauge goes through its place along the last direction. */
+static void look_at_monitor(sph_case_finder *f, const sph_sim *sim, const box *b,
+                            const sph_case_node *monitor)
+{
+  const char *type = get_text(monitor, "type", "");
+  const int dim = sph_sim_dim(sim), gauge = type[0] == 'g';
+  double x[3];
+  if (sph_case_reader_vector(monitor, "at", x) && (gauge || type[0] == 'p'))
+    look_at_place(f, sim, b, monitor, "its place", x, 0, gauge ? dim - 1 : dim);
+}
+
+static void look_at_event(sph_case_finder *f, const sph_sim *sim, const box *b,
+                          const sph_case_node *event)
+{
+  const sph_case_node *when = child_of(event, "when"), *front = child_of(when, "front");
+  double x[3] = {0};
+  if (sph_case_reader_vector(when, "wet", x) || sph_case_reader_vector(when, "dry", x))
+    look_at_place(f, sim, b, event, "its point", x, 0, sph_sim_dim(sim));
+  if (!front) return;
+  const int d = get_text(front, "axis", "x")[0] - 'x';
+  x[d] = sph_case_reader_number(front, "at", 0);
+  look_at_place(f, sim, b, event, "its front, at", x, d, d + 1);
+}
+
+int sph_case_warning_places(const sph_case *c, const sph_sim *sim, int k, char *text, size_t size)
+{
+  sph_case_finder f = {.c = c, .wanted = k, .text = text, .size = size};
+  if (!c || !sim || k < 0) return 0;
+  const box b = box_of(sim);
+  const sph_case_node *monitors = child_of(child_of(c->root, "output"), "monitors");
+  const sph_case_node *events = child_of(c->root, "events");
+  for (const sph_case_node *m = monitors ? monitors->first : NULL; m; m = m->next)
+    look_at_monitor(&f, sim, &b, m);
+  for (const sph_case_node *e = events ? events->first : NULL; e; e = e->next)
+    look_at_event(&f, sim, &b, e);
+  return f.found > k;
+}
