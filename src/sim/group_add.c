@@ -97,6 +97,7 @@ void sph_group_add_box(sph_group *group, const double *lo, const double *hi, dou
 {
   lattice cells;
   if (!ready(group, "a box") || !positive(group, "rho0", rho0)) return;
+  group->shapes++;
   if (box_lattice(group, lo, hi, &cells)) fill(group, &cells, rho0, NULL, NULL);
 }
 
@@ -136,6 +137,7 @@ void sph_group_add_ball(sph_group *group, const double *centre, double radius, d
                  group->name, reach);
     return;
   }
+  group->shapes++;
   fill(group, &cells, rho0, inside, &b);
 }
 
@@ -184,12 +186,14 @@ void sph_group_add_layers(sph_group *group, const double *lo, const double *hi, 
     if (!is_open(open, d, '-')) cells.from[d] -= layers;
     if (!is_open(open, d, '+')) cells.to[d] += layers;
   }
+  group->shapes++;
   fill(group, &cells, rho0, outside, inner);
 }
 
 void sph_group_add_points(sph_group *group, long n, const double *const x[], double rho0)
 {
   if (!ready(group, "points") || !positive(group, "rho0", rho0)) return;
+  group->loose = 1;
   if (n < 0 || (double)n > MOST || (n > 0 && !x)) {
     sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s: %ld points", group->name, n);
     return;

@@ -125,8 +125,16 @@ static int find(filler *f, const sph_fill *fill)
   if (!status) status = add_all(f);
   if (!status && f->n > 0 && fill->pack) status = pack(f, fill);
   if (status || f->n > 0) return status;
+  double lower[3], upper[3], longest = 0;
+  sph_shape_bounds(f->shape, lower, upper);
+  for (int d = 0; d < f->dim; d++) longest = fmax(longest, upper[d] - lower[d]);
   return sph_error_set(f->error, SPH_ERR_ARGUMENT,
-                       "no place of the lattice (dx = %g m) lies in the shape", f->dx);
+                       "no place of the lattice (dx = %g m) lies in the shape, %.3g m long%s",
+                       f->dx, fmax(0, longest),
+                       longest > 2 * f->dx
+                           ? ": it is empty, or thinner than dx"
+                           : "; a smaller spacing is right, or another unit (unit: 1 m) of a "
+                             "surface from a file");
 }
 
 void sph_group_add_shape(sph_group *group, const sph_shape *shape, const sph_fill *fill)
@@ -142,11 +150,15 @@ void sph_group_add_shape(sph_group *group, const sph_shape *shape, const sph_fil
               .margin = fill->pack ? group->sim->dx : 0,
               .error = &error};
   const long before = group->n;
+  const int loose = group->loose;
   int status = find(&f, fill);
   if (status)
     sph_sim_fail(group->sim, status, "group %s: %s", group->name, error.text);
   else
     sph_group_add_points(group, f.n, (const double *const *)f.x, fill->rho0);
+  group->shapes++;
+  group->loose = loose;
+  if (fill->pack) group->packed_to = fill->pack->uniformity > 0 ? fill->pack->uniformity : 0.03;
   for (int d = 0; d < group->dim && !status && sph_sim_data_ok(group->sim); d++)
     for (long i = before; i < group->n && fill->stretch[d] > 0; i++)
       group->own[SPH_MASS][0][i] *= fill->stretch[d];

@@ -30,6 +30,7 @@ static int ready(const sph_group *group, double fraction)
 void sph_group_jitter(sph_group *group, double fraction, unsigned long seed)
 {
   if (!ready(group, fraction)) return;
+  group->loose |= fraction > 0;
   for (long i = 0; i < group->n; i++)
     for (int d = 0; d < group->dim; d++) {
       double by =

@@ -71,27 +71,6 @@ static void find_in_fluid(sph_finder *f, const sph_sim *sim, const sph_group *fl
     sph_sim_warning_found(f, "%s has no conductivity beside conduction", fluid->name);
 }
 
-/* Steps that explicit terms make far shorter than sound does. */
-static void find_in_limits(sph_finder *f, const sph_sim *sim)
-{
-  static const struct {
-    int bound;
-    const char *term;
-  } row[] = {{SPH_BOUND_VISCOUS, "viscosity-laminar"},
-             {SPH_BOUND_CONDUCTION, "conduction"},
-             {SPH_BOUND_DRAG, "drag"}};
-  const int stabilised = !strncmp(sph_sim_integrator(sim), "lsrk:", 5);
-  for (size_t k = 0; sim->prepared && !stabilised && k < sizeof row / sizeof *row; k++) {
-    const double ratio = sim->limit[SPH_BOUND_CFL] / sim->limit[row[k].bound];
-    if (ratio > 10 && ratio < INFINITY)
-      sph_sim_warning_found(
-          f,
-          "%s bounds steps to 1/%.0f of h/c: integrator imex:ark324l2sa-4-2-3 takes it "
-          "implicitly",
-          row[k].term, ratio);
-  }
-}
-
 static void find_in_surface(sph_finder *f, const sph_sim *sim)
 {
   if (sim->prepared && sim->surface > 0 && !sim->terms.shift.surface)
@@ -114,11 +93,12 @@ int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size)
       find_in_dust(&f, sim, sim->group[g]);
     else
       find_in_fluid(&f, sim, sim->group[g]);
-  find_in_limits(&f, sim);
+  if (sim->prepared) sph_sim_warning_steps(&f, sim);
   find_in_surface(&f, sim);
   if (sim->prepared) sph_sim_warning_speeds(&f, sim);
   if (sim->prepared) sph_sim_warning_resolution(&f, sim);
   if (sim->prepared) sph_sim_warning_events(&f, sim);
   if (sim->prepared) sph_sim_warning_overlap(&f, sim);
+  if (sim->prepared) sph_sim_warning_places(&f, sim);
   return f.found > k;
 }

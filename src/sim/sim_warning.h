@@ -12,8 +12,11 @@ typedef struct sph_finder {
 
 void sph_sim_warning_found(sph_finder *f, const char *format, ...) SPH_PRINTF(2, 3);
 
-/* Of an evaluated simulation: speeds and pressures of liquids against their sound speed; the
- * resolution of kernel, bodies and walls; bodies in each other; events that have passed. */
+/* Of an evaluated simulation: what bounds steps; speeds and pressures of liquids against their
+ * sound speed; the resolution of kernel, bodies and walls; bodies in each other, beside or far from
+ * each other; events that have passed. */
+void sph_sim_warning_steps(sph_finder *f, const sph_sim *sim);
+void sph_sim_warning_places(sph_finder *f, const sph_sim *sim);
 void sph_sim_warning_speeds(sph_finder *f, const sph_sim *sim);
 void sph_sim_warning_resolution(sph_finder *f, const sph_sim *sim);
 void sph_sim_warning_overlap(sph_finder *f, const sph_sim *sim);

@@ -71,6 +71,9 @@ struct sph_group {
   int scalars;         /* integrated besides: fields SPH_SCALAR, ... */
   double rho0;         /* walls: density where no fluid tells it [kg/m^3] */
   sph_packing packing; /* of its last packed shape; particles 0: none */
+  double packed_to;    /* what was wanted of it */
+  int shapes;          /* that were filled by a lattice */
+  int loose;           /* some particles were given, or moved off their lattice */
 };
 
 /* All pointers of one evaluation: made at its start from the vectors at hand, never stored. */
