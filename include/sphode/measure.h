@@ -1,7 +1,7 @@
-/* sphode/measure.h -- what is read off a simulation besides its fields: forces on walls, the power
- * of each term.
+/* sphode/measure.h -- what is read off a simulation besides its fields: forces on walls, their
+ * work, the power of each term.
  *
- * Both are of the state that the simulation shows (sphode/output.h), from the pair sums of f with
+ * All are of the state that the simulation shows (sphode/output.h), from the pair sums of f with
  * the lists as they are: to measure changes no result.  A call costs about as much as one to three
  * right-hand sides; call them between steps or in the frames of outputs. */
 #ifndef SPHODE_MEASURE_H
@@ -28,6 +28,12 @@ typedef struct sph_force {
  * a status; what is wrong sticks to the simulation. */
 SPH_API int sph_sim_force(sph_sim *sim, const sph_group *wall, const double *about,
                           sph_force *force);
+
+/* Work of all walls that move on the fluids [J/m^(3-dim)], - int (F.v + omega.T) dt, by the
+ * trapezoidal rule over the moments at which this was called, as each frame of a time series does;
+ * 0 at the first of them, and where no wall moves.  With it the energy balances: the total of
+ * sph_sim_balance changes by this work and what is dissipated.  Returns a status. */
+SPH_API int sph_sim_work(sph_sim *sim, double *work);
 
 /* How fast one term of f changes the energies of the fluids [W/m^(3-dim)]:
  *

@@ -111,6 +111,7 @@ typedef struct sph_series_force {
 /* The same, with more columns behind the monitors:
  *   of each wall in `force`: NAME_force_x ... [N/m in 2D], NAME_pressure_x ..., NAME_viscous_x ...,
  *              and NAME_torque_z (3D: _x, _y, _z): sph_sim_force
+ *   where walls move, without being asked for: work [J/m in 2D]: sph_sim_work
  *   powers     TERM_kinetic [W/m in 2D], TERM_internal of each term: sph_sim_power */
 typedef struct sph_series_def {
   const char *directory;
@@ -175,7 +176,8 @@ typedef struct sph_comparison {
 } sph_comparison;
 
 /* directory/summary.json and summary.txt, after a run (also a failed one).  start: sph_sim_balance
- * at the start, for the drifts; NULL: none are told. */
+ * at the start, for the drifts, of the energy besides the work of walls that move (sph_sim_work);
+ * NULL: none are told. */
 SPH_API int sph_summary_write(const char *directory, struct sph_sim *sim,
                               const struct sph_balance *start, const sph_comparison *comparison,
                               int n, sph_error *error);

@@ -4,6 +4,7 @@
 #include "memory.h"
 #include "monitor.h"
 #include "rows.h"
+#include "sim_work.h"
 #include "sphode/measure.h"
 #include "sphode/output.h"
 #include "sphode/sim.h"
@@ -95,6 +96,7 @@ static void header(const context *c, const sph_sim *sim, sph_text *row)
   for (int k = 0; k < c->n; k++)
     sph_text_add(row, ",%s [%s]", c->monitors[k].name, sph_monitor_unit(c->monitors[k].type));
   header_forces(c, dim, row);
+  if (sph_sim_work_moves(sim)) sph_text_add(row, ",work [%s]", sph_units_get(SPH_UNIT_ENERGY, dim));
   if (c->powers) header_powers(sim, row);
   sph_text_add(row, "\n");
 }
@@ -117,6 +119,17 @@ static int add_forces(const context *c, sph_sim *sim, sph_text *row, sph_error *
       for (int d = 0; d < dim; d++) sph_text_add(row, ",%.15g", parts[part][d]);
     for (int d = first_turn(dim); d < 3; d++) sph_text_add(row, ",%.15g", f.torque[d]);
   }
+  return SPH_OK;
+}
+
+/* Of walls that move. */
+static int add_work(sph_sim *sim, sph_text *row, sph_error *error)
+{
+  double work;
+  if (!sph_sim_work_moves(sim)) return SPH_OK;
+  const int status = sph_sim_work(sim, &work);
+  if (status) return told(sim, status, error);
+  sph_text_add(row, ",%.15g", work);
   return SPH_OK;
 }
 
@@ -150,6 +163,7 @@ static int numbers(const context *c, sph_sim *sim, sph_text *row, sph_error *err
     sph_text_add(row, ",%.15g", value);
   }
   if (status == SPH_OK) status = add_forces(c, sim, row, error);
+  if (status == SPH_OK) status = add_work(sim, row, error);
   if (status == SPH_OK && c->powers) status = add_powers(sim, row, error);
   sph_text_add(row, "\n");
   return status;

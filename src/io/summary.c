@@ -5,6 +5,7 @@
 
 #include "file.h"
 #include "sphode/event.h"
+#include "sphode/measure.h"
 #include "sphode/output.h"
 #include "sphode/sim.h"
 #include "text.h"
@@ -16,6 +17,7 @@ typedef struct facts {
   int dim;
   const sph_balance *start; /* NULL: no drifts */
   sph_balance now;
+  double work; /* of walls that move [J/m^(3-dim)] */
   sph_sim_stats stats;
   long fluids, walls; /* particles */
   const sph_comparison *comparison;
@@ -27,6 +29,7 @@ static facts gather(sph_sim *sim, const sph_balance *start, const sph_comparison
   const sph_group *group;
   facts f = {.sim = sim, .start = start, .comparison = comparison, .n = n};
   f.dim = sph_sim_dim(sim);
+  sph_sim_work(sim, &f.work); /* after a failure: up to the last frame */
   sph_sim_balance(sim, &f.now);
   sph_sim_get_stats(sim, &f.stats);
   for (int k = 0; (group = sph_sim_group_get(sim, k)); k++) {
@@ -183,7 +186,8 @@ static void json_balances(sph_text *t, const facts *f)
   real(t, "drift_mass", f->now.mass - f->start->mass);
   real(t, "drift_momentum", distance(f->now.momentum, f->start->momentum));
   real(t, "drift_angular_momentum", distance(f->now.angular_momentum, f->start->angular_momentum));
-  real(t, "drift_total_energy", f->now.total - f->start->total);
+  real(t, "work_of_walls", f->work);
+  real(t, "drift_total_energy", f->now.total - f->start->total - f->work);
 }
 
 static void json_comparisons(sph_text *t, const facts *f)
@@ -274,8 +278,9 @@ static void text_balance(sph_text *t, const facts *f)
     sph_text_add(t, "not known: no start balance\n");
     return;
   }
+  if (f->work != 0) sph_text_add(t, "beside %.5g %s of work by walls: ", f->work, unit);
   sph_text_add(t, "total energy %+.3g %s, mass %+.3g %s, momentum %.3g %s\n",
-               b->total - start->total, unit, b->mass - start->mass,
+               b->total - start->total - f->work, unit, b->mass - start->mass,
                sph_units_get(SPH_UNIT_MASS, f->dim), distance(b->momentum, start->momentum),
                sph_units_get(SPH_UNIT_MOMENTUM, f->dim));
 }

@@ -112,6 +112,12 @@ typedef struct sph_saver {
   void (*free)(void *ctx);
 } sph_saver;
 
+/* Of walls that move, so far (sim_work.c). */
+typedef struct sph_work {
+  int known;            /* 1: t and power are */
+  double t, power, sum; /* last measured at [s], [W/m^(3-dim)], [J/m^(3-dim)] */
+} sph_work;
+
 struct sph_sim {
   sph_error error;
   char retry[300]; /* why the last evaluation asked for a smaller step */
@@ -173,6 +179,7 @@ struct sph_sim {
   int inside;    /* of a step, a run, a sensitivity's, an adjoint's: callbacks begin no other */
   double time;   /* of the state shown */
   double looked; /* for events, up to here [s] */
+  sph_work work;
   const char *stopped_by; /* the event that ended the last run or step; NULL: none */
   double start;           /* of the run: frames count from here */
   double begun;           /* sph_clock when the present sph_sim_run began; 0: none goes on */

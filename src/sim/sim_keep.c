@@ -11,6 +11,7 @@
 #include "sim_implicit.h"
 #include "sim_prepare.h"
 #include "sim_rhs.h"
+#include "sim_work.h"
 #include "sphode/checkpoint.h"
 
 /* ---- groups ---- */
@@ -213,7 +214,8 @@ int sph_sim_keep(sph_sim *sim, sph_keep *keep)
       {"lists", sph_sim_lists_keep},   {"parameters", keep_parameters},
       {"integrator", keep_integrator}, {"implicit", sph_sim_implicit_keep},
       {"events", keep_events},         {"modifiers", keep_modifiers},
-      {"outputs", keep_outlets},       {"users", keep_users},
+      {"work", sph_sim_work_keep},     {"outputs", keep_outlets},
+      {"users", keep_users},
   };
   int status = keep->error->status;
   for (size_t k = 0; !status && k < sizeof part / sizeof *part; k++) {
