@@ -19,9 +19,10 @@ static const struct {
 static int usable(int isa)
 {
   switch (isa) {
-  case SPH_ISA_reference:
+  case SPH_ISA_reference: return 1;
+#ifndef SPH_HAVE_X86_64_V2
   case SPH_ISA_generic: return 1;
-#ifdef SPH_HAVE_X86_64_V2
+#else
   case SPH_ISA_x86_64_v2:
     return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt");
 #endif

@@ -19,11 +19,14 @@ enum sph_isa {
       SPH_ISA_COUNT
 };
 
-/* Those built into this library: X(suffix). */
+/* Those built into this library: X(suffix).  Two lanes once: processors without x86-64-v2, which
+ * are from before 2009, take the reference. */
 #ifdef SPH_HAVE_X86_64_V2
-#define SPH_ISA_BUILT_V2(X) X(x86_64_v2)
+#define SPH_ISA_TWO_LANES "x86-64-v2"
+#define SPH_ISA_BUILT_TWO(X) X(x86_64_v2)
 #else
-#define SPH_ISA_BUILT_V2(X)
+#define SPH_ISA_TWO_LANES "generic"
+#define SPH_ISA_BUILT_TWO(X) X(generic)
 #endif
 #ifdef SPH_HAVE_X86_64_V3
 #define SPH_ISA_BUILT_V3(X) X(x86_64_v3)
@@ -35,8 +38,7 @@ enum sph_isa {
 #else
 #define SPH_ISA_BUILT_V4(X)
 #endif
-#define SPH_ISA_BUILT(X) \
-  X(reference) X(generic) SPH_ISA_BUILT_V2(X) SPH_ISA_BUILT_V3(X) SPH_ISA_BUILT_V4(X)
+#define SPH_ISA_BUILT(X) X(reference) SPH_ISA_BUILT_TWO(X) SPH_ISA_BUILT_V3(X) SPH_ISA_BUILT_V4(X)
 
 /* In a *_loops.c, compiled once per instruction set with SPH_ISA its suffix: the name of its
  * table. */

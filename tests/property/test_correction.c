@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "balance.h"
+#include "cpu.h"
 #include "near.h"
 #include "quick.h"
 #include "sim_data.h"
@@ -112,7 +113,7 @@ static void look(const cloud *it, worst *w)
 static void exact(void **state)
 {
   (void)state;
-  static const char *const isa[] = {NULL, "reference", "generic"};
+  static const char *const isa[] = {NULL, "reference", SPH_ISA_TWO_LANES};
   worst corrected = {0}, plain = {0};
   long all = 0;
   for (int dim = 1; dim <= 3; dim++)

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 #include <math.h>
 
+#include "cpu.h"
 #include "near.h"
 #include "scene.h"
 
@@ -67,7 +68,7 @@ static double error(int dim, int kernel, const char *isa, const char *kind, doub
 static void exact(void **state)
 {
   (void)state;
-  static const char *const isa[] = {NULL, "reference", "generic"};
+  static const char *const isa[] = {NULL, "reference", SPH_ISA_TWO_LANES};
   double constant = 0, linear = 0, least = INFINITY;
   for (int dim = 1; dim <= 3; dim++)
     for (int kernel = 0; sph_kernel_get(kernel); kernel++) {

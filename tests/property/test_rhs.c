@@ -79,7 +79,7 @@ static scene_def choose_scene(int dim, int k, int walls, int thermal)
 
 static void check(const scene_def *def, int mix)
 {
-  static const char *const isa[] = {NULL, "reference", "generic", NULL, NULL, NULL};
+  static const char *const isa[] = {NULL, "reference", SPH_ISA_TWO_LANES, NULL, NULL, NULL};
   static const char *const method[] = {NULL, NULL, NULL, "brute-force", "hash", "tree"};
   scene s;
   scene_make(&s, def);

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 #include <math.h>
 
+#include "cpu.h"
 #include "scene.h"
 
 /* ---- the brute force ---- */
@@ -294,7 +295,7 @@ static void compare(const scene *s, const scene_def *def, const scene_rates *r)
 /* Returns the particles at the surface. */
 static long check(scene_def def, numbers k, int even, int energy)
 {
-  static const char *const isa[] = {NULL, "reference", "generic"};
+  static const char *const isa[] = {NULL, "reference", SPH_ISA_TWO_LANES};
   scene s;
   def.n = def.dim == 1 ? 40 : def.dim == 2 ? 14 : 8;
   scene_make(&s, &def);

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 #include <math.h>
 
+#include "cpu.h"
 #include "scene.h"
 
 static const double tolerance = 1e-14;
@@ -49,7 +50,7 @@ typedef void choose(oracle *o, int k);
 /* A scene of every dimension and kernel, with and without walls, liquid and gas as asked. */
 static void check(int k, int thermal, int fluids, int dusts, choose *terms)
 {
-  static const char *const isa[] = {NULL, "reference", "generic"};
+  static const char *const isa[] = {NULL, "reference", SPH_ISA_TWO_LANES};
   scene_def def = {.dim = 1 + k % 3,
                    .kernel = k % ORACLE_KERNELS,
                    .fluids = fluids,

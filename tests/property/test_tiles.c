@@ -172,7 +172,7 @@ static scene_def scene_number(int k, int thermal)
 
 static void equal_to_fused(void **state)
 {
-  static const char *const isa[] = {NULL, "reference", "generic"};
+  static const char *const isa[] = {NULL, "reference", SPH_ISA_TWO_LANES};
   (void)state;
   for (int k = 0; k < 24; k++) {
     scene_def def = scene_number(k, k % 4 == 3);
