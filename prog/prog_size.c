@@ -71,8 +71,15 @@ static double free_in(const char *directory)
 
 void sph_prog_sizes_warn(const sph_case *c, sph_sim *sim, const char *directory)
 {
+  enum { MOST = 300 }; /* bytes of a particle in a snapshot, and more */
   char all[32], there[32];
   sph_case_size s;
+  const sph_group *group;
+  double particles = 0;
+  for (int k = 0; (group = sph_sim_group_get(sim, k)); k++)
+    particles += (double)sph_group_count(group);
+  if (sph_case_size_get(c, sim, NULL, 0, &s, NULL) < 1) return;
+  if (s.frames * particles * MOST < free_in(directory)) return; /* it takes time to make one */
   if (sph_case_size_get(c, sim, directory, 0, &s, NULL) < 1) return;
   if (s.frames * s.bytes > free_in(directory))
     sph_prog_error(PROG_OK,

@@ -60,9 +60,9 @@ typedef struct sph_case_size {
   double bytes;    /* of one; of a table: of the rows of a frame */
 } sph_case_size;
 /* Entry k = 0, 1, ... of it, behind a trial in directory (sph_case_build_output_trial,
- * sph_sim_run) and in the state that sim shows; checkpoints come last.  1; 0: there is none; < 0: a
- * status, also where steps as long as the largest so far would have more frames in them than a run
- * takes. */
+ * sph_sim_run) and in the state that sim shows, checkpoints last; directory NULL: counts alone,
+ * bytes NaN.  1; 0: there is none; < 0: a status, also where steps as long as the largest so far
+ * would have more frames in them than a run takes. */
 SPH_API int sph_case_size_get(const sph_case *c, sph_sim *sim, const char *directory, int k,
                               sph_case_size *size, sph_error *error);
 

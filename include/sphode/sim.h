@@ -73,8 +73,8 @@ SPH_API void sph_sim_set_stop(sph_sim *sim, const char *why);
 
 /* Warning k = 0, 1, ... about terms and materials that do nothing together, or are missing, as one
  * line in text[size]; 0 behind the last.  All groups and terms should be there; once it was
- * evaluated, also about terms that bound steps, resolution, speeds, bodies that overlap or gape,
- * events that have passed. */
+ * evaluated, also about what bounds steps, resolution, speeds, bodies that overlap, gape or are far
+ * from each other, uneven packings, events that have passed. */
 SPH_API int sph_sim_warning(const sph_sim *sim, int k, char *text, size_t size);
 
 /* Runs to time t_end [s], writing outputs; or one step.  Callbacks (terms, outputs, events,

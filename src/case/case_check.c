@@ -198,7 +198,7 @@ static int check_name(sph_case *c, const sph_case_node *node)
 static const char *word_in(const char *text, const char *name)
 {
   const size_t n = strlen(name);
-  for (const char *at = text; (at = strstr(at, name)); at++) {
+  for (const char *at = text; n > 0 && (at = strstr(at, name)); at++) {
     const int before = at > text && (isalnum((unsigned char)at[-1]) || at[-1] == '_');
     if (!before && !isalnum((unsigned char)at[n]) && at[n] != '_') return at;
   }

@@ -42,6 +42,8 @@ static int of_snapshots(const writing *w, sph_case_size *size)
   snprintf(size->name, sizeof size->name, "snapshots");
   size->interval = def.interval;
   int status = count(w, node ? node : output, "snapshots", size);
+  size->bytes = NAN;
+  if (!w->directory) return status;
   const long bytes = status ? status : sph_output_hdf5_size(w->sim, &def, w->error);
   size->bytes = (double)bytes;
   return bytes < 0 ? (int)bytes : SPH_OK;
@@ -71,6 +73,8 @@ static int of_table(const writing *w, const sph_case_node *probe, sph_case_size 
     snprintf(size->name, sizeof size->name, "series.csv");
   size->interval = sph_case_build_output_interval(w->c, probe);
   int status = count(w, own ? own : series ? series : output, own ? "interval" : "series", size);
+  size->bytes = NAN;
+  if (!w->directory) return status;
   if (!status) status = sph_file_path(path, w->directory, size->name, w->error);
   if (!status) status = sph_file_read(path, &text, &length, w->error);
   if (!status) size->bytes = last_frame(text, length);
@@ -84,6 +88,8 @@ static int of_checkpoints(const writing *w, sph_case_size *size)
   const sph_case_node *map = child_of(w->c->root, "checkpoint");
   snprintf(size->name, sizeof size->name, "checkpoints");
   size->frames = get_number(map, "keep", 2);
+  size->bytes = NAN;
+  if (!w->directory) return SPH_OK;
   sph_case_build_checkpoints(w->c, w->sim, w->directory, NULL);
   const long bytes = sph_checkpoint_size(w->sim);
   size->bytes = (double)bytes;

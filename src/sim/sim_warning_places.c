@@ -93,7 +93,7 @@ typedef struct face {
 } face;
 
 typedef struct ahead {
-  double apart; /* to the nearest particle of others, straight ahead [m] */
+  float apart; /* to the nearest particle of others, straight ahead [m]; there are many of these */
   int group;
 } ahead;
 
@@ -114,8 +114,8 @@ static void look_ahead(const sph_sim *sim, const sph_neighbors *search, const in
     double aside = 0;
     for (int e = 0; e < sim->dim; e++) aside = e == d ? aside : fmax(aside, fabs(by[e]));
     ahead *to = &found[2 * d + (by[d] > 0)];
-    if (aside < 0.6 * sim->dx && fabs(by[d]) < to->apart)
-      *to = (ahead){.apart = fabs(by[d]), .group = of[1]};
+    if (aside < 0.6 * sim->dx && (float)fabs(by[d]) < to->apart)
+      *to = (ahead){.apart = (float)fabs(by[d]), .group = of[1]};
   }
 }
 

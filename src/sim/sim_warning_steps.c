@@ -45,7 +45,8 @@ static void find_in_damping(sph_finder *f, const sph_sim *sim)
     sph_sim_warning_found(
         f,
         "diffusion of density with delta = %g bounds steps to 1/%.3g of those that sound allows "
-        "(5.5 delta); usual is 0.1",
+        "(5.5 delta); usual is 0.1. Integrator imex:ark324l2sa-4-2-3 takes it implicitly "
+        "(part: implicit)",
         delta, 5.5 * delta);
 }
 

@@ -425,7 +425,8 @@ static void steps(void **state)
        (const char *const[4]){"alpha = 20 bounds steps to 1/13 of"});
   says(stepped(sph_term_delta("molteni", 0.5), &usual), none);
   says(stepped(sph_term_delta("molteni", 5), &usual),
-       (const char *const[4]){"delta = 5 bounds steps to 1/27.5 of", "usual is 0.1"});
+       (const char *const[4]){"delta = 5 bounds steps to 1/27.5 of", "usual is 0.1",
+                              "part: implicit"});
   sph_integrator_def def = leap;
   def.cfl = 1;
   says(stepped((sph_term){0}, &def), none);
