@@ -35,7 +35,7 @@ SPH_API int sph_case_check_parts(const sph_case *c, sph_error *error);
 /* Keys that do nothing without their partner, as heat_flux without conduction, events behind the
  * end of the run, periods longer than it: warning k = 0, 1, ... written to text[size]; 0: none. */
 SPH_API int sph_case_warning(const sph_case *c, int k, char *text, size_t size);
-/* Monitors and events that look far outside of all particles of the simulation; likewise. */
+/* Monitors, probes, events that look far outside of all particles of the simulation; likewise. */
 SPH_API int sph_case_warning_places(const sph_case *c, const sph_sim *sim, int k, char *text,
                                     size_t size);
 /* What event k = 0, 1, ... of the case waits for, does and changes, in one line; 0: none. */

@@ -1,4 +1,4 @@
-/* Where a case looks: monitors and events far from all particles see nothing. */
+/* Where a case looks: monitors, probes and events far from all particles see nothing. */
 #include <math.h>
 
 #include "case_warning.h"
@@ -59,6 +59,26 @@ static void look_at_monitor(sph_case_finder *f, const sph_sim *sim, const box *b
     look_at_place(f, sim, b, monitor, "its place", x, 0, gauge ? dim - 1 : dim);
 }
 
+/* Ends, corners and points of it; where all of them are far, the run is refused. */
+static void look_at_probe(sph_case_finder *f, const sph_sim *sim, const box *b,
+                          const sph_case_node *probe)
+{
+  static const char *const ends[][2] = {{"line", "from"},
+                                        {"line", "to"},
+                                        {"plane", "corner"},
+                                        {"plane", "along"},
+                                        {"plane", "across"}};
+  const sph_case_node *points = child_of(probe, "points");
+  const int before = f->found;
+  double x[3];
+  for (size_t k = 0; k < sizeof ends / sizeof *ends && f->found == before; k++)
+    if (sph_case_reader_vector(child_of(probe, ends[k][0]), ends[k][1], x))
+      look_at_place(f, sim, b, probe, "its end", x, 0, sph_sim_dim(sim));
+  for (points = points ? points->first : NULL; points && f->found == before; points = points->next)
+    if (sph_case_reader_vector(points, "at", x))
+      look_at_place(f, sim, b, probe, "its point", x, 0, sph_sim_dim(sim));
+}
+
 static void look_at_event(sph_case_finder *f, const sph_sim *sim, const box *b,
                           const sph_case_node *event)
 {
@@ -77,10 +97,14 @@ int sph_case_warning_places(const sph_case *c, const sph_sim *sim, int k, char *
   sph_case_finder f = {.c = c, .wanted = k, .text = text, .size = size};
   if (!c || !sim || k < 0) return 0;
   const box b = box_of(sim);
-  const sph_case_node *monitors = child_of(child_of(c->root, "output"), "monitors");
+  const sph_case_node *output = child_of(c->root, "output");
+  const sph_case_node *monitors = child_of(output, "monitors"),
+                      *probes = child_of(output, "probes");
   const sph_case_node *events = child_of(c->root, "events");
   for (const sph_case_node *m = monitors ? monitors->first : NULL; m; m = m->next)
     look_at_monitor(&f, sim, &b, m);
+  for (const sph_case_node *p = probes ? probes->first : NULL; p; p = p->next)
+    look_at_probe(&f, sim, &b, p);
   for (const sph_case_node *e = events ? events->first : NULL; e; e = e->next)
     look_at_event(&f, sim, &b, e);
   return f.found > k;

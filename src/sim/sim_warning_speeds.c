@@ -6,7 +6,7 @@
 #include "sim_rhs.h"
 #include "sim_warning.h"
 
-static const double MACH = 0.1, WEIGHT = 0.01, START = 0.03, ROUNDING = 1e-6;
+static const double MACH = 0.1, WEIGHT = 0.01, START = 0.03, ROUNDING = 0.03; /* of lattices, too */
 
 /* Largest speed of a fluid's particles in the state shown. */
 static double moving(const sph_sim *sim, const sph_group *fluid)

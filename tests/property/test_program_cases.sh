@@ -162,12 +162,14 @@ ok $good "degrees that are radians, and motions that are none"
 good=0
 warns "p: its place x = 100 m is far outside of all particles, which are from -0.0375 to 1.537 m" "output.monitors.p={type: pressure, at: [100, 0]}"
 warns "g: its place x = -50 m is far outside" "output.monitors.g={type: gauge, at: [-50 m, 0]}"
+warns "column: its end y = 100 m is far outside" "output.probes.column.line.to=[0, 100]"
+warns "a: its point x = 90 m is far outside" "output.probes={a: {points: [{at: [0, 0]}, {at: [90 m, 0]}]}}"
 warns "a: its front, at x = 50 m is far outside" "events={a: {when: {front: {at: 50 m}}}}"
 warns "b: its point y = 30 m is far outside" "events={b: {when: {wet: [0, 30]}}}"
 ok $good "places far outside"
 good=0
 for right in "output.monitors={p: {type: pressure, at: [2, 1]}, g: {type: gauge, at: [1, 1000]}}" "events={a: {when: {front: {at: 2 m}}}}" "terms.gravity.acceleration=[0, -9.5]" \
-  "output.snapshots=1e-4" plot.field=velocity_y plot.field=group "groups.tank.boundary={motion: {rotation: {centre: [0, 0], angle: 1 deg*sin(t/(1 s))}}}" \
+  groups.water.jitter=0.3 groups.water.lattice=hexagonal "output.snapshots=1e-4" plot.field=velocity_y plot.field=group "groups.tank.boundary={motion: {rotation: {centre: [0, 0], angle: 1 deg*sin(t/(1 s))}}}" \
   "groups.water.shapes=[{rotate: {of: {box: {lower: [0.5, 0.05], upper: [0.7, 0.25]}}, angle: 390 deg, about: [0.6, 0.15]}}]"; do
   run 0 "$sphode" check tank2.yml --set "$right" && grep -q "right, 0 warnings" out || { good=1; grep warning out; }
 done
