@@ -102,7 +102,8 @@ static const command commands[] = {
      "      --frames N         snapshots on the sheet\n"
      "      --series LIST      instead columns of series.csv over time, as front,kinetic, to\n"
      "                         DIR/series.png\n"
-     "      --table FILE       of another table in DIR, as probe_line.csv, to DIR/probe_line.png\n"
+     "      --table FILE       of another table in DIR, as probe_line.csv, to DIR/probe_line.png;\n"
+     "                         of a plane with --field COLUMN a map of it (--frames of them)\n"
      "      --over COLUMN      over this column instead of the first, as points\n"},
     {"movie", "DIR", "oFEBAq", sph_prog_movie,
      "draw all snapshots of a run, as an mp4 or animated PNG",

@@ -44,19 +44,36 @@ static sph_case *case_of(const char *directory)
   return sph_case_read(path, 0, NULL, &none);
 }
 
+/* DIR/x.csv and DIR/x.png. */
+static void name_table(const prog_options *o, char csv[4096], char png[4096])
+{
+  const char *table = o->table ? o->table : "series.csv", *end = strrchr(table, '.');
+  snprintf(csv, 4096, "%s/%s", o->what, table);
+  snprintf(png, 4096, "%s/%.*s.png", o->what, (int)(end ? end - table : (long)strlen(table)),
+           table);
+}
+
+/* A table of places in a plane. */
+static int map(const prog_options *o)
+{
+  char csv[4096], png[4096];
+  sph_error error = {0};
+  name_table(o, csv, png);
+  const int status = sph_plot_plane(csv, o->field, o->frames ? o->frames : 1, png, &error);
+  return report(status, png, &error) ? PROG_FAILED : PROG_OK;
+}
+
 /* Columns of a table of the run over another one. */
 static int curves(const prog_options *o)
 {
   char csv[4096], png[4096], columns[1000], *rest = NULL;
-  const char *table = o->table ? o->table : "series.csv", *end = strrchr(table, '.');
   sph_plot_curve curve[CURVES];
   sph_error error = {0};
   int n = 0;
   if (!o->series)
-    return sph_prog_error(PROG_USAGE, "plot: --table and --over want --series COLUMN,...");
-  snprintf(csv, sizeof csv, "%s/%s", o->what, table);
-  snprintf(png, sizeof png, "%s/%.*s.png", o->what, (int)(end ? end - table : (long)strlen(table)),
-           table);
+    return sph_prog_error(PROG_USAGE, "plot: --table and --over want --series COLUMN,...%s",
+                          o->table && !o->over ? ", or of a plane --field COLUMN" : "");
+  name_table(o, csv, png);
   if ((size_t)snprintf(columns, sizeof columns, "%s", o->series) >= sizeof columns)
     return sph_prog_error(PROG_USAGE, "plot: --series of more than %zu bytes", sizeof columns - 1);
   for (char *word = strtok_r(columns, ",", &rest); word; word = strtok_r(NULL, ",", &rest)) {
@@ -81,6 +98,7 @@ static void comparisons(const sph_case *c, const char *directory)
 
 int sph_prog_plot(const prog_options *o)
 {
+  if (o->table && o->field && !o->series && !o->over) return map(o);
   if (o->series || o->table || o->over) return curves(o);
   sph_case *c = case_of(o->what);
   const char *field = o->field ? o->field : c ? sph_case_plot_field(c) : NULL;

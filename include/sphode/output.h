@@ -205,6 +205,10 @@ SPH_API int sph_plot_particles(const char *path, const char *field, const char *
  * scale. */
 SPH_API int sph_plot_frames(const char *directory, const char *field, int n, const char *png,
                             sph_error *error);
+/* A plane of places, as a probe writes it (probe_NAME.csv): n of its times, evenly from the first
+ * to the last, as maps of a column, one colour scale. */
+SPH_API int sph_plot_plane(const char *csv, const char *column, int n, const char *png,
+                           sph_error *error);
 /* All snapshots of a directory as a movie, by gnuplot and ffmpeg (SPH_ERR_UNBUILT where one is not
  * there): each as sph_plot_particles draws it, all with the same colours and axes.  Its frames are
  * drawn into the folder PATH.frames, which is removed in the end. */

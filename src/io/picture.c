@@ -47,9 +47,9 @@ static void choose_directions(sph_picture *p)
 /* What is drawn: the fluids with some wall around them; what leaked through walls is left out. */
 void sph_picture_view(sph_picture *p)
 {
-  const double margin = 4 * p->spacing;
   choose_directions(p);
   for (int k = 0; k < 2; k++) {
+    const double margin = p->cell[k] > 0 ? p->cell[k] / 2 : 4 * p->spacing;
     const int d = k ? p->up : p->across;
     const double wall_lo = p->box_lo[SPH_WALLS][d], wall_hi = p->box_hi[SPH_WALLS][d];
     double lo = p->box_lo[SPH_FLUIDS][d], hi = p->box_hi[SPH_FLUIDS][d];
@@ -194,7 +194,20 @@ static const char palette[] =
  * as fast and leaves no gaps, else discs. */
 static int squares(const sph_picture *p)
 {
+  if (p->cell[0] > 0) return 1;
   return p->panel[0] / (p->hi[0] - p->lo[0]) * p->spacing < 5;
+}
+
+/* Halves of what a particle or a place fills. */
+static const char *radii_of(const sph_picture *p)
+{
+  return p->cell[0] > 0 ? "(cell_x):(cell_y)" : squares(p) ? "(radius):(radius)" : "(radius)";
+}
+
+/* Of the axis across (0) or up (1). */
+static char letter(const sph_picture *p, int k)
+{
+  return p->axis[k] ? p->axis[k] : "xyz"[k ? p->up : p->across];
 }
 
 static void add_head(const sph_picture *p, sph_text *script)
@@ -204,6 +217,9 @@ static void add_head(const sph_picture *p, sph_text *script)
   double span = size[1] - bottom - top;
   sph_text_add(script, "length = %g # of the axes [m]\nradius = %.6g/length # of a particle\n",
                p->length, (squares(p) ? 0.68 : 0.55) * p->spacing);
+  if (p->cell[0] > 0)
+    sph_text_add(script, "cell_x = %.6g/length\ncell_y = %.6g/length # half of a cell, and more\n",
+                 0.52 * p->cell[0], 0.52 * p->cell[1]); /* no gaps */
   sph_text_add(script, "unit = %g\n\n%s", p->unit, palette);
   sph_text_add(script, "set cbrange [%.9g:%.9g]\nset cblabel ", p->from / p->unit, p->to / p->unit);
   sph_text_gnuplot_string(script, p->label);
@@ -241,13 +257,13 @@ static void add_axes(const sph_picture *p, int k, double time, sph_text *script)
   sph_text_add(script, "set label 1 't = %s s' at graph 0, 1 offset 0, 0.8 left\n", text);
   sph_text_add(script, "set xtics %.6g format '%s'; set xlabel '",
                tics((p->hi[0] - p->lo[0]) / p->length, panel_x, 70), lowest ? "%g" : "");
-  if (lowest) sph_text_add(script, "%c [%s]", "xyz"[p->across], p -> length_unit);
+  if (lowest) sph_text_add(script, "%c [%s]", letter(p, 0), p->length_unit);
   sph_text_add(script, "'\nset format y '%s'; set ylabel ", column ? "" : "%g");
   if (p->dim == 1) {
     sph_text_gnuplot_string(script, column ? "" : p->label);
     sph_text_add(script, "\n");
   } else {
-    sph_text_add(script, column ? "''" : "'%c [%s]'", "xyz"[p->up], p -> length_unit);
+    sph_text_add(script, column ? "''" : "'%c [%s]'", letter(p, 1), p->length_unit);
     sph_text_add(script, "; set ytics %.6g\n",
                  tics((p->hi[1] - p->lo[1]) / p->length, panel_y, panel_y < 300 ? 28 : 50));
   }
@@ -257,7 +273,7 @@ static void add_panel(const sph_picture *p, const sph_snapshot *frame, int k, in
                       sph_text *script, sph_text *data)
 {
   const char *separator = "plot", *shape = squares(p) ? "boxxyerror" : "circles";
-  const char *radii = squares(p) ? "(radius):(radius)" : "(radius)";
+  const char *radii = radii_of(p);
   add_axes(p, k, frame->time, script);
   if (k == 1) sph_text_add(script, "unset colorbox\n");
   if (p->dim > 1 && add_block(p, frame, SPH_WALLS, data) > 0) {
@@ -303,4 +319,20 @@ int sph_picture_draw(sph_picture *p, const sph_snapshot *frame, int n, const cha
   for (int k = 0; k < n; k++) add_panel(p, &frame[k], k, &index, &script, &data);
   sph_text_add(&script, "unset multiplot\n");
   return sph_gnuplot_run(&names, &script, &data, error);
+}
+
+int sph_picture_sheet(sph_picture *p, const sph_snapshot *frame, int n, const char *png,
+                      sph_error *error)
+{
+  for (int k = 0; k < n; k++) {
+    if (frame[k].dim != frame[0].dim)
+      return sph_error_set(error, SPH_ERR_FILE, "snapshots of %dD and %dD in one picture",
+                           frame[0].dim, frame[k].dim);
+    sph_picture_bound(p, &frame[k]);
+  }
+  sph_picture_view(p);
+  int status = SPH_OK;
+  for (int k = 0; k < n && !status; k++) status = sph_picture_take(p, &frame[k], error);
+  sph_picture_range(p);
+  return status ? status : sph_picture_draw(p, frame, n, png, error);
 }

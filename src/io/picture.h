@@ -6,6 +6,8 @@
 typedef struct sph_picture {
   const char *field;
   double width, height;           /* of the sheet, at most [pixels] */
+  double cell[2];                 /* of places on a grid instead of particles [m]; 0: particles */
+  char axis[2];                   /* names of the directions drawn; 0: x, y, z */
   long frames, particles, values; /* that were shown; of fluids, in all of them; of `value` */
   double *value;                  /* some of the values that will be seen, SI */
   double from, to;                /* of the colours, SI */
@@ -32,6 +34,9 @@ void sph_picture_bound(sph_picture *p, const sph_snapshot *frame);
 void sph_picture_view(sph_picture *p);
 int sph_picture_take(sph_picture *p, const sph_snapshot *frame, sph_error *error);
 void sph_picture_range(sph_picture *p); /* also frees the values */
+/* All of this, for frames of one dimension. */
+int sph_picture_sheet(sph_picture *p, const sph_snapshot *frame, int n, const char *png,
+                      sph_error *error);
 int sph_picture_draw(sph_picture *p, const sph_snapshot *frame, int n, const char *png,
                      sph_error *error);
 

@@ -9,23 +9,6 @@
 
 enum { FRAMES_MAX = 16 };
 
-static int draw(const sph_snapshot *frame, int n, const char *field, const char *png,
-                sph_error *error)
-{
-  sph_picture p = {.field = field, .width = 1200, .height = 1500};
-  for (int k = 0; k < n; k++) {
-    if (frame[k].dim != frame[0].dim)
-      return sph_error_set(error, SPH_ERR_FILE, "snapshots of %dD and %dD in one picture",
-                           frame[0].dim, frame[k].dim);
-    sph_picture_bound(&p, &frame[k]);
-  }
-  sph_picture_view(&p);
-  int status = SPH_OK;
-  for (int k = 0; k < n && !status; k++) status = sph_picture_take(&p, &frame[k], error);
-  sph_picture_range(&p);
-  return status ? status : sph_picture_draw(&p, frame, n, png, error);
-}
-
 /* Draws the snapshots of these numbers (of `directory`), or the one file `path` if given. */
 static int draw_files(const char *path, const char *directory, const long *number, int n,
                       const char *field, const char *png, sph_error *error)
@@ -39,7 +22,8 @@ static int draw_files(const char *path, const char *directory, const long *numbe
     if (status == SPH_OK) status = sph_snapshot_read(path ? path : name, field, &frame[k], error);
     if (status == SPH_OK) read++;
   }
-  if (status == SPH_OK) status = draw(frame, n, field, png, error);
+  sph_picture p = {.field = field, .width = 1200, .height = 1500};
+  if (status == SPH_OK) status = sph_picture_sheet(&p, frame, n, png, error);
   for (int k = 0; k < read; k++) sph_snapshot_read_free(&frame[k]);
   return status;
 }

@@ -378,6 +378,43 @@ static void case_file(void **state)
   }
 }
 
+/* Two times of 3 x 2 places in a plane y = 5, a metre apart along z, two along x. */
+static void planes_are_maps(void **state)
+{
+  (void)state;
+  sph_error error = {0};
+  FILE *file = fopen(in("plane.csv"), "w");
+  fprintf(file, "time [s],x [m],y [m],z [m],p [Pa]\n");
+  for (int k = 0; k < 12; k++)
+    fprintf(file, "%d,%d,5,%d,%s\n%s", k / 6, 2 * (k % 3), k / 3 % 2, k == 8 ? "nan" : "1.5",
+            k == 5 ? "\n" : "");
+  fclose(file);
+  char csv[FOLDER_MAX + 100];
+  snprintf(csv, sizeof csv, "%s", in("plane.csv"));
+  int status = sph_plot_plane(csv, "p", 2, in("plane.png"), &error);
+  assert_true(status == SPH_OK || status == SPH_ERR_UNBUILT); /* the script is there */
+  char *script = slurp("plane.gp");
+  assert_non_null(strstr(script, "set ylabel 'z [m]'"));
+  assert_non_null(strstr(script, "set xlabel 'x [m]'"));
+  assert_non_null(strstr(script, "cell_x = 1.04/length"));
+  assert_non_null(strstr(script, "cell_y = 0.52/length"));
+  char *data = slurp("plane.dat");
+  assert_non_null(strstr(data, "t = 1 s"));
+  assert_non_null(strstr(data, "\n4 1 1.5\n"));
+  assert_non_null(strstr(data, "\n4 0 nan\n"));
+  free(script);
+  free(data);
+  error = (sph_error){0};
+  assert_int_equal(sph_plot_plane(csv, "p", 17, in("plane.png"), &error), SPH_ERR_ARGUMENT);
+  file = fopen(csv, "a");
+  fprintf(file, "2,0,5,0,1\n");
+  fclose(file);
+  error = (sph_error){0};
+  assert_int_equal(sph_plot_plane(csv, "p", 1, in("plane.png"), &error), SPH_ERR_FILE);
+  assert_non_null(strstr(error.text, "13 rows, 6 at the first time"));
+  assert_int_equal(sph_plot_plane(NULL, "p", 1, in("plane.png"), NULL), SPH_ERR_ARGUMENT);
+}
+
 static int make(void **state)
 {
   (void)state;
@@ -398,6 +435,7 @@ int main(void)
                                      cmocka_unit_test(run_changes_nothing),
                                      cmocka_unit_test(restart_leaves_no_gap),
                                      cmocka_unit_test(mistakes),
+                                     cmocka_unit_test(planes_are_maps),
                                      cmocka_unit_test(case_file)};
   return cmocka_run_group_tests_name("probes", tests, make, clean);
 }

@@ -180,10 +180,17 @@ run 0 "$sphode" export d1/snapshot_0002.hdf --csv -o one && [[ -s one/snapshot_0
 ok $? "an export of one snapshot has its number"
 # Scripts of pictures are there without gnuplot, too.
 run 0 "$sphode" run "$SRCDIR/cases/lid-driven-cavity-2d.yml" --lenient -o cavity --set parameters.n=8 --set parameters.L=0.5m --set parameters.U=2m/s \
+  --set "output.probes={p: {interval: 0.01 s, plane: {corner: [0, 0], along: [L, 0], across: [0, L/2], n_along: 5, n_across: 3}},
+    l: {line: {from: [0, 0], to: [L, 0], n: 5}}}" \
   --set run.end=0.02s --set output.snapshots=0.01s --set "compare.0.window=[0, 1]" --set "compare.1.window=[0, 1]" &&
   grep -qF "set xlabel 'y / (0.5 m)'" cavity/compare_0.gp && grep -qF "set ylabel 'velocity_x / (2 m/s)'" cavity/compare_0.gp &&
   grep -qF "set ylabel 'velocity_y / (2 m/s)'" cavity/compare_1.gp
 ok $? "comparisons along a section have units at their axes"
+"$sphode" plot cavity --table probe_p.csv --field density --frames 2 >out 2>err || grep -q "no gnuplot found" err
+grep -qF "set cblabel 'density [kg/m^3]'" cavity/probe_p.gp && grep -q "cell_x = 0.065/length" cavity/probe_p.gp && [[ $(grep -c "^[0-9]" cavity/probe_p.dat) == 30 ]] &&
+  run 1 "$sphode" plot cavity --table probe_l.csv --field pressure && grep -q "places lie on a line; curves draw it" err &&
+  run 1 "$sphode" plot cavity --table probe_p.csv --field preszure && grep -q 'no column "preszure" among' err
+ok $? "a plane of a probe is drawn as maps, a line is not"
 before=$(cksum d1/* | cksum)
 fails "a run that ended is not written over" "d1 holds a run that ended or was stopped" run "$dam" "${small[@]}" -o d1
 [[ $before == "$(cksum d1/* | cksum)" ]]
