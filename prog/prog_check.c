@@ -124,7 +124,8 @@ static int estimate(sph_sim *sim, double end)
   if (status) return status;
   const double seconds = sph_prog_progress_now() - begin;
   sph_sim_get_stats(sim, &s);
-  const double steps = ceil(end / s.step.dt_largest), one = seconds / fmax(1, s.step.steps - 1);
+  const double steps = ceil(end / s.step.dt_largest),
+               one = seconds / fmax(1, (double)s.step.steps - 1);
   printf("%-12s about %.3g steps of %.3g s to t = %.4g s (%s)\n", "steps", steps, s.step.dt_largest,
          end, sph_sim_integrator(sim));
   print_bounds(sim, &s.step);

@@ -155,12 +155,13 @@ static int simulate(prog_job *j)
   j->page = NULL;
   sph_prog_progress_end(&progress);
   if (status == SPH_OK) return PROG_OK;
-  if (status == SPH_ERR_ARGUMENT) /* of an output, as it is opened */
+  const int begun = sph_sim_time(j->sim) > 0 || status != SPH_ERR_ARGUMENT;
+  if (!begun) /* an output cannot be opened */
     sph_prog_sim_error(j->c, j->sim, j->directory);
   else
     sph_prog_error(PROG_FAILED, "%s: %s", j->directory, sph_sim_error(j->sim));
   if (status == SPH_ERR_STEP) tell_failure(j);
-  if (status != SPH_ERR_ARGUMENT) tell_checkpoint(j);
+  if (begun) tell_checkpoint(j);
   if (status != SPH_ERR_STOPPED) return PROG_FAILED;
   int number = sph_prog_progress_signal();
   return number ? 128 + number : sph_prog_progress_over(&progress) ? PROG_LIMIT : PROG_FAILED;

@@ -174,7 +174,7 @@ static void look_at_column(finder *f, const sph_case_node *column, const sph_cas
   static const double MOSTLY = 0.7, NEAR = 0.05;
   double g[3] = {0}, all = 0;
   const double wanted = get_number(column, "gravity", 0);
-  const int up = get_text(column, "axis", "xyz" + f->c->dim - 1)[0] - 'x';
+  const int up = get_text(column, "axis", &"xyz"[f->c->dim - 1])[0] - 'x';
   if (child_of(terms, "body-force") || child_of(terms, "harmonic") || wanted == 0) return;
   sph_case_reader_vector(child_of(terms, "gravity"), "acceleration", g);
   for (int d = 0; d < f->c->dim; d++) all += g[d] * g[d];

@@ -14,7 +14,7 @@ typedef struct box {
 
 static box box_of(const sph_sim *sim)
 {
-  box b;
+  box b = {{0}, {0}};
   const sph_group *group;
   for (int d = 0; d < 3; d++) b.low[d] = INFINITY, b.high[d] = -INFINITY;
   for (int k = 0; (group = sph_sim_group_get(sim, k)); k++)
