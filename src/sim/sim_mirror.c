@@ -388,7 +388,11 @@ static const double *parent_record(const sph_sim *sim, const sph_ghost *ghost)
   return sorted->record + sph_sim_mirror_parent(sim, ghost) * sorted->stride;
 }
 
-void sph_sim_mirror_copy(const sph_sim *sim, int from, int to)
+/* What a ghost takes of its particle's record: slots from ... to - 1. */
+typedef void taking(const sph_sim *sim, const sph_ghost *ghost, const double *parent, double *own,
+                    int from, int to);
+
+static void take_all(const sph_sim *sim, taking *one, int from, int to)
 {
   for (int g = 0; g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
@@ -396,18 +400,30 @@ void sph_sim_mirror_copy(const sph_sim *sim, int from, int to)
     if (!is_mirror(group)) continue;
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (group->n > PARALLEL_MIN)
     for (long s = 0; s < group->n; s++) {
-      const double *parent = parent_record(sim, &group->ghost[order[s]]);
-      double *own = sim->sorted[g].record + s * sim->sorted[g].stride;
-      for (int k = from; k < to; k++) own[k] = parent[k];
+      const sph_ghost *ghost = &group->ghost[order[s]];
+      one(sim, ghost, parent_record(sim, ghost), sim->sorted[g].record + s * sim->sorted[g].stride,
+          from, to);
     }
   }
 }
 
+static void copy(const sph_sim *sim, const sph_ghost *ghost, const double *parent, double *own,
+                 int from, int to)
+{
+  (void)sim, (void)ghost;
+  for (int k = from; k < to; k++) own[k] = parent[k];
+}
+
+void sph_sim_mirror_copy(const sph_sim *sim, int from, int to) { take_all(sim, copy, from, to); }
+
 /* Both indices are turned, one after the other. */
-static void turn_matrix(const sph_sim *sim, const sph_ghost *ghost, const double *B, double *to)
+static void turn_matrix(const sph_sim *sim, const sph_ghost *ghost, const double *parent,
+                        double *own, int from, int to)
 {
   double A[3][3], column[3];
   const int dim = sim->dim;
+  const double *B = parent + from;
+  (void)to;
   for (int a = 0; a < dim; a++)
     for (int b = a; b < dim; b++) A[a][b] = A[b][a] = *B++;
   for (int a = 0; a < dim; a++) sph_sim_mirror_turn(sim, ghost, A[a]);
@@ -417,23 +433,13 @@ static void turn_matrix(const sph_sim *sim, const sph_ghost *ghost, const double
     for (int a = 0; a < dim; a++) A[a][b] = column[a];
   }
   for (int a = 0; a < dim; a++)
-    for (int b = a; b < dim; b++) *to++ = A[a][b];
+    for (int b = a; b < dim; b++) own[from++] = A[a][b];
 }
 
 void sph_sim_mirror_matrices(const sph_sim *sim)
 {
   const int slot = slot_B(sim->dim);
-  for (int g = 0; g < sim->groups; g++) {
-    const sph_group *group = sim->group[g];
-    const int *order = sph_neighbors_order(sim->neighbors, g);
-    if (!is_mirror(group)) continue;
-#pragma omp parallel for num_threads(sim->threads) schedule(static) if (group->n > PARALLEL_MIN)
-    for (long s = 0; s < group->n; s++) {
-      const sph_ghost *ghost = &group->ghost[order[s]];
-      turn_matrix(sim, ghost, parent_record(sim, ghost) + slot,
-                  sim->sorted[g].record + s * sim->sorted[g].stride + slot);
-    }
-  }
+  take_all(sim, turn_matrix, slot, slot + sim->dim * (sim->dim + 1) / 2);
 }
 
 static void place(const sph_evaluation *e, const mirrors *all, const sph_group *group, long i)

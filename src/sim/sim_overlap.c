@@ -3,17 +3,11 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "sim_prepare.h"
+
 sph_neighbors *sph_sim_overlap_search(const sph_sim *sim, double reach)
 {
-  sph_neighbors_def def = {.dim = sim->dim,
-                           .reach = fmin(reach, sim->H),
-                           .dx = sim->dx,
-                           .threads = sim->threads};
-  for (int d = 0; d < sim->dim; d++) {
-    def.periodic[d] = sim->periodic[d];
-    def.origin[d] = sim->origin[d];
-    def.length[d] = sim->length[d];
-  }
+  const sph_neighbors_def def = sph_sim_prepare_search(sim, fmin(reach, sim->H));
   sph_neighbors *search = sph_neighbors_create(&def, NULL);
   int status = search ? SPH_OK : SPH_ERR_MEMORY;
   for (int g = 0; g < sim->groups && !status; g++) {

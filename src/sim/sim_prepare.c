@@ -398,22 +398,25 @@ static int make_sorted(sph_sim *sim, int g)
   return sim->error.status;
 }
 
-static int make_search(sph_sim *sim)
+sph_neighbors_def sph_sim_prepare_search(const sph_sim *sim, double reach)
 {
-  sph_search own = sim->own_search;
-  own.free = NULL; /* it is the simulation's */
-  sph_neighbors_def def = {.dim = sim->dim,
-                           .reach = sim->H + sim->skin,
-                           .dx = sim->dx,
-                           .lanes = sph_cpu_lanes(sim->isa),
-                           .threads = sim->threads,
-                           .search = sim->uses_own_search ? NULL : sim->search,
-                           .own = sim->uses_own_search ? &own : NULL};
+  sph_neighbors_def def = {.dim = sim->dim, .reach = reach, .dx = sim->dx, .threads = sim->threads};
   for (int d = 0; d < sim->dim; d++) {
     def.periodic[d] = sim->periodic[d];
     def.origin[d] = sim->origin[d];
     def.length[d] = sim->length[d];
   }
+  return def;
+}
+
+static int make_search(sph_sim *sim)
+{
+  sph_search own = sim->own_search;
+  own.free = NULL; /* it is the simulation's */
+  sph_neighbors_def def = sph_sim_prepare_search(sim, sim->H + sim->skin);
+  def.lanes = sph_cpu_lanes(sim->isa);
+  def.search = sim->uses_own_search ? NULL : sim->search;
+  def.own = sim->uses_own_search ? &own : NULL;
   sim->neighbors = sph_neighbors_create(&def, &sim->error);
   for (int g = 0; g < sim->groups && sim->neighbors; g++)
     if (sums_of(sim, sim->group[g]) >= sim->dim) /* they begin behind the lists */

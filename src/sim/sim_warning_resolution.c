@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "memory.h"
+#include "sim_prepare.h"
 #include "sim_warning.h"
 
 static const char axis[] = "xyz";
@@ -88,15 +89,7 @@ static int has_place(const sph_group *group)
 static int make_places(places *p)
 {
   const sph_sim *sim = p->sim;
-  sph_neighbors_def def = {.dim = sim->dim,
-                           .reach = 1.3 * sim->dx,
-                           .dx = sim->dx,
-                           .threads = sim->threads};
-  for (int d = 0; d < sim->dim; d++) {
-    def.periodic[d] = sim->periodic[d];
-    def.origin[d] = sim->origin[d];
-    def.length[d] = sim->length[d];
-  }
+  const sph_neighbors_def def = sph_sim_prepare_search(sim, 1.3 * sim->dx);
   for (int g = 0; g < sim->groups; g++)
     if (has_place(sim->group[g])) p->n[sim->group[g]->wall ? WALLS : FLUIDS] += sim->group[g]->n;
   p->n[PROBES] = p->n[FLUIDS];

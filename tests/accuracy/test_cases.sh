@@ -1,16 +1,7 @@
 #!/usr/bin/env bash
 # Cases that take seconds, as they come along: each meets its bars; the stiff ones with explicit steps, too.
-sphode=${SPHODE:-$BUILDDIR/sphode}
-stage=$(mktemp -d) || exit 99
-trap 'rm -rf "$stage"' EXIT
-cd "$stage" || exit 99
-export OMP_WAIT_POLICY=passive
+source "$SRCDIR/tests/tap.sh"
 
-count=0
-ok() { # 0 or not, name
-  count=$((count + 1))
-  if [[ $1 == 0 ]]; then echo "ok $count - $2"; else echo "not ok $count - $2"; fi
-}
 steps() { sed -n 's/^ *"steps": \([0-9]*\).*/\1/p' "$1/summary.json"; }
 run() { # name of the run, case, options...
   local name=$1 case=$2

@@ -1,15 +1,7 @@
 #!/usr/bin/env bash
 # sphode movie, as ffprobe and ffmpeg see what it made: all frames, the rate, the size, one scale of colours in all frames.
-sphode=${SPHODE:-$BUILDDIR/sphode}
-stage=$(mktemp -d) || exit 99
-trap 'rm -rf "$stage"' EXIT
-cd "$stage" || exit 99
+source "$SRCDIR/tests/tap.sh"
 
-count=0
-ok() { # 0 or not, name
-  count=$((count + 1))
-  if [[ $1 == 0 ]]; then echo "ok $count - $2"; else echo "not ok $count - $2"; fi
-}
 refused() { # STATUS MESSAGE ARGUMENT...
   "$sphode" movie "${@:3}" >out 2>&1
   [[ $? == "$1" ]] && grep -qF -e "$2" out || { sed 's/^/# /' out && false; }

@@ -1,32 +1,12 @@
 #!/usr/bin/env bash
 # The program: what it prints, how it exits, what it leaves behind.
-sphode=${SPHODE:-$BUILDDIR/sphode}
-stage=$(mktemp -d) || exit 99
-trap 'rm -rf "$stage"' EXIT
-cd "$stage" || exit 99
-export OMP_WAIT_POLICY=passive
+source "$SRCDIR/tests/tap.sh"
 dam=$SRCDIR/cases/dam-break-2d.yml
 # Seconds at most: 50 columns of 10 particles, a tenth of the time.
 small=(--set "parameters.dx=H/10" --set "run.end=T" --set "output.snapshots=T/2" --set "output.series=T/20" --lenient)
 # Hours, to be stopped.
 long=(--set "parameters.dx=H/40" --set "run.end=1000*T" --set "output.snapshots=1000*T" --set "output.series=T/100")
 
-count=0
-ok() { # 0 or not, name
-  count=$((count + 1))
-  if [[ $1 == 0 ]]; then echo "ok $count - $2"; else echo "not ok $count - $2"; fi
-}
-# run STATUS COMMAND...: standard output to out, errors to err; true where it exits with STATUS.
-run() {
-  local wanted=$1 status
-  shift
-  "$@" >out 2>err
-  status=$?
-  [[ $status == "$wanted" ]] && return
-  echo "# exit status $status, wanted $wanted: $*"
-  sed 's/^/# /' out err
-  return 1
-}
 usage() { # name, what the message says, arguments...
   local name=$1 says=$2
   shift 2

@@ -1,27 +1,7 @@
 #!/usr/bin/env bash
 # Making cases: templates, their JSON Schema, sweeps.
-sphode=${SPHODE:-$BUILDDIR/sphode}
-stage=$(mktemp -d) || exit 99
-trap 'rm -rf "$stage"' EXIT
-cd "$stage" || exit 99
+source "$SRCDIR/tests/tap.sh"
 mkdir temporary && export TMPDIR=$stage/temporary
-export OMP_WAIT_POLICY=passive
-
-count=0
-ok() { # 0 or not, name
-  count=$((count + 1))
-  if [[ $1 == 0 ]]; then echo "ok $count - $2"; else echo "not ok $count - $2"; fi
-}
-run() { # STATUS COMMAND...: standard output to out, errors to err
-  local wanted=$1 status
-  shift
-  "$@" >out 2>err
-  status=$?
-  [[ $status == "$wanted" ]] && return
-  echo "# exit status $status, wanted $wanted: $*"
-  sed 's/^/# /' out err
-  return 1
-}
 
 # ---- templates
 

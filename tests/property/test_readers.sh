@@ -3,16 +3,8 @@
 # h5py and yt (snapshots, GADGET's layout), VTK (VTU; VTKHDF), ParaView (series), SPLASH, gnuplot (CSV);
 # and files that VTK itself wrote come in.  A reader that is not here is skipped; Debian: python3-h5py,
 # python3-yt, python3-vtk9 or paraview, splash, gnuplot-nox.
-sphode=${SPHODE:-$BUILDDIR/sphode}
-stage=$(mktemp -d) || exit 99
-trap 'rm -rf "$stage"' EXIT
-cd "$stage" || exit 99
+source "$SRCDIR/tests/tap.sh"
 
-count=0
-ok() { # 0 or not, name
-  count=$((count + 1))
-  if [[ $1 == 0 ]]; then echo "ok $count - $2"; else echo "not ok $count - $2"; fi
-}
 # The Python that has this module, the system's among them.
 python_with() {
   local python

@@ -1,11 +1,7 @@
 #!/usr/bin/env bash
 # sphode restart: killed at random moments, stopped, out of time, out of space, damaged: the run that goes on leaves the
 # files of the one that was never interrupted, byte for byte.
-sphode=${SPHODE:-$BUILDDIR/sphode}
-stage=$(mktemp -d) || exit 99
-trap 'rm -rf "$stage"' EXIT
-cd "$stage" || exit 99
-export OMP_WAIT_POLICY=passive
+source "$SRCDIR/tests/tap.sh"
 every=20 # steps between checkpoints
 kills=20
 [[ -z $SPHODE_TEST_QUICK ]] || kills=4 # under sanitizers
@@ -16,11 +12,6 @@ sed '/^compare:/,$d' "$SRCDIR/cases/dam-break-2d.yml" >dam.yml
 case=(../dam.yml -o out --set "parameters.dx=H/20" --set "run.end=6*T" --set "output.snapshots=T/3" --set "output.series=T/40"
   --set "checkpoint.steps=$every" -q)
 
-count=0
-ok() { # 0 or not, name
-  count=$((count + 1))
-  if [[ $1 == 0 ]]; then echo "ok $count - $2"; else echo "not ok $count - $2"; fi
-}
 # run STATUS DIR COMMAND...: there; standard output to out, errors to err; true where it exits with STATUS.
 run() {
   local wanted=$1 dir=$2 status

@@ -1,27 +1,9 @@
 #!/usr/bin/env bash
 # sphode work-precision: orders, costs and failures that it tells of a wave and of a gas.
-sphode=${SPHODE:-$BUILDDIR/sphode}
-stage=$(mktemp -d) || exit 99
-trap 'rm -rf "$stage"' EXIT
-cd "$stage" || exit 99
-export OMP_WAIT_POLICY=passive
+source "$SRCDIR/tests/tap.sh"
 wave=$SRCDIR/cases/acoustic-wave-1d.yml
 sod=$SRCDIR/cases/sod-1d.yml
 
-count=0
-ok() { # 0 or not, name
-  count=$((count + 1))
-  if [[ $1 == 0 ]]; then echo "ok $count - $2"; else echo "not ok $count - $2"; sed 's/^/# /' out err; fi
-}
-run() { # STATUS COMMAND...: standard output to out, errors to err; true where it exits with STATUS
-  local wanted=$1 status
-  shift
-  "$@" >out 2>err
-  status=$?
-  [[ $status == "$wanted" ]] && return
-  echo "# exit status $status, wanted $wanted: $*"
-  return 1
-}
 refused() { # STATUS, name, what the message says, arguments...
   local status=$1 name=$2 says=$3
   shift 3
