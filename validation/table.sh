@@ -32,6 +32,8 @@ tests property/test_rhs "right-hand side, random states, of the sum of absolute 
 page viscosity "tests: Effective viscosity on a lattice" terms
 tests accuracy/test_viscosity "Morris in 2D, effective over nominal viscosity" "shear flow" "within 0.5 %" \
   '2D, 100 across, h = 1.5 dx: Morris \([0-9.]*\)' "100 across, h = 1.5 dx"
+printed ratio "Effective over nominal viscosity, Morris, h = 1.5 dx" "particles across" "nu effective / nu" accuracy/test_viscosity \
+  'set yrange [0.99:1.001]' "2D" 's|^# 2D, \([0-9]*\) across, h = 1.5 dx: Morris \([0-9.]*\) .*|\1 \2|p'
 
 page lattice-sound "tests: Sound on a lattice" exact-solutions
 tests accuracy/test_acoustics "frequency of lattice waves, all kernels" "discrete dispersion relation" "≤ 1e-9" 'all waves: error \([0-9.e-]*\)'
@@ -270,6 +272,12 @@ tests accuracy/test_wall_models "order of a manufactured flow, mirrors" "its fie
 tests accuracy/test_wall_models "Couette and Poiseuille, dynamic boundary particles, rms in % of V" "exact series" – \
   'dbc, 25 across: rms \([0-9.]*\) %' "h/dx = 1.5, 25 across"
 tests accuracy/test_wall_models "particles lost in 1.2 s of impact, mirrors" "none" "≤ 0" 'impact, mirror: \([0-9]*\) of' "H/dx = 20"
+printed errors "Errors at no-slip and heated walls" "particles across" "rms error" accuracy/test_wall_models \
+  "$(printf 'set logscale xy\nset xrange [7:45]\nset xtics (8, 10, 16, 20, 32, 40)\nset format y "10^{%%T}"\nset mytics 10')" \
+  "between cylinders, Adami" 's|.*between cylinders.*rms \([0-9.]*\) % at \([0-9]*\), \([0-9.]*\) % at \([0-9]*\) .*|\2 \1e-2\n\4 \3e-2|p' \
+  "slab of a temperature, mirrors" 's|.*dirichlet: rms \([0-9.e-]*\) at \([0-9]*\), \([0-9.e-]*\) at \([0-9]*\) .*|\2 \1\n\4 \3|p' \
+  "adiabatic slab, mirrors" 's|.*neumann: rms \([0-9.e-]*\) at \([0-9]*\), \([0-9.e-]*\) at \([0-9]*\) .*|\2 \1\n\4 \3|p' \
+  "slab with a heat flux, mirrors" 's|.*flux: rms \([0-9.e-]*\) at \([0-9]*\), \([0-9.e-]*\) at \([0-9]*\) .*|\2 \1\n\4 \3|p'
 say "Finer ones, dynamic boundary particles and plates: [walls.md](../walls.md)."
 
 elsewhere "Three wall models side by side, 10 s of impact, manufactured solutions" \
