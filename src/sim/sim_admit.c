@@ -21,30 +21,52 @@ int sph_sim_admit_retry(sph_sim *sim, const char *format, ...)
   return SPH_RETRY;
 }
 
+/* What one share of the targets counts, each in a place of its own of the group's first sums. */
+typedef struct counting {
+  const sph_sim *sim;
+  int g;
+  count_constants constants;
+} counting;
+
+static void count_share(void *ctx, const sph_share *share)
+{
+  const counting *k = ctx;
+  const sph_sim *sim = k->sim;
+  const sph_group *group = sim->group[k->g];
+  sph_pair_function *loop = sph_count_loop(sim->isa, sim->dim);
+  double *const *sum = share->sum, near = 0, pairs = 0;
+  const long place = share->begin / SPH_SHARE_BLOCKS;
+  const long n = sph_sim_pairs_targets(sim, k->g, share);
+  for (int s = 0; s < sim->groups; s++)
+    if (sph_sim_interaction_same_species(group, sim->group[s]))
+      sph_sim_pairs_loop_share(sim, share, loop, k->g, s, &k->constants);
+  for (long s = 0; s < n; s++) near += sum[SPH_COUNT_NEAR][s] > 0 || sum[SPH_COUNT_ZERO][s] > 1;
+  for (int s = 0; s < sim->groups; s++) /* these may be as near as they like */
+    if (sph_sim_drag_acts(sim, group, sim->group[s]))
+      sph_sim_pairs_loop_share(sim, share, loop, k->g, s, &k->constants);
+  for (long s = 0; s < n; s++) pairs += sum[SPH_COUNT_PAIRS][s];
+  sim->sorted[k->g].sum[0][place] = near;
+  sim->sorted[k->g].sum[1][place] = pairs;
+}
+
 /* After some list builds: pairs inside the support, and particles nearer than 0.1 dx to another.
  * These are reported, not refused: lone particles of spray may stick together, and a smaller step
  * would not part them. */
 static void count(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
-  sph_pair_function *loop = sph_count_loop(sim->isa, sim->dim);
-  const count_constants constants = {.H2 = sim->H * sim->H, .near2 = 0.01 * sim->dx * sim->dx};
-  sim->near = 0;
+  double near = 0;
   sim->pairs_now = 0;
   for (int g = 0; g < sim->groups; g++) {
-    double *const *sum = sim->sorted[g].sum;
+    counting k = {sim, g, {.H2 = sim->H * sim->H, .near2 = 0.01 * sim->dx * sim->dx}};
     if (sim->group[g]->wall) continue;
-    sph_sim_pairs_clear(sim, g, SPH_COUNT_SUMS);
-    for (int s = 0; s < sim->groups; s++)
-      if (sph_sim_interaction_same_species(sim->group[g], sim->group[s]))
-        sph_sim_pairs_loop(sim, loop, g, s, &constants);
-    for (long s = 0; s < e->view[g].n; s++)
-      sim->near += sum[SPH_COUNT_NEAR][s] > 0 || sum[SPH_COUNT_ZERO][s] > 1;
-    for (int s = 0; s < sim->groups; s++) /* these may be as near as they like */
-      if (sph_sim_drag_acts(sim, sim->group[g], sim->group[s]))
-        sph_sim_pairs_loop(sim, loop, g, s, &constants);
-    for (long s = 0; s < e->view[g].n; s++) sim->pairs_now += sum[SPH_COUNT_PAIRS][s];
+    const long shares = sph_sim_pairs_share(sim, g, SPH_COUNT_SUMS, 1, count_share, &k);
+    for (long c = 0; c < shares; c++) {
+      near += sim->sorted[g].sum[0][c];
+      sim->pairs_now += sim->sorted[g].sum[1][c];
+    }
   }
+  sim->near = (long)near;
   sim->fresh = 0;
 }
 

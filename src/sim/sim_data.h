@@ -53,7 +53,7 @@ typedef struct sph_sorted {
   long room;                  /* particles: a multiple of 8 */
   long stride;                /* doubles in a record */
   double *record;             /* [room * stride + SPH_PAIR_SLOTS] */
-  double *sum[SPH_PAIR_SUMS]; /* [room + SPH_LANES_MAX]; NULL for those that no loop makes */
+  double *sum[SPH_PAIR_SUMS]; /* [room]; NULL for those that no loop makes */
   double *phi;                /* of the row phi, not sorted, [room]; NULL: another row */
   double *built[3];           /* positions at the last list build, not sorted, [capacity] */
   int *place; /* of a fluid that mirrors show: sorted place of each particle, [room]; else NULL */

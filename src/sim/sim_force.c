@@ -44,6 +44,17 @@ static void take(const sph_evaluation *e, int g, const double about[3], double f
   }
 }
 
+typedef struct adding {
+  const sph_evaluation *e;
+  int fluid, wall;
+} adding;
+
+static void add_share(void *ctx, const sph_share *share)
+{
+  const adding *a = ctx;
+  sph_sim_interaction_add(a->e, share, a->fluid, a->wall);
+}
+
 /* By the pair terms of a part, of all fluids. */
 static void add(sph_evaluation *e, const sph_part *part, const sph_group *wall,
                 const double about[3], double force[3], double torque[3])
@@ -52,8 +63,8 @@ static void add(sph_evaluation *e, const sph_part *part, const sph_group *wall,
   e->part = part;
   for (int g = 0; g < sim->groups; g++) {
     if (sim->group[g]->wall || !sph_sim_interaction_same_species(sim->group[g], wall)) continue;
-    sph_sim_pairs_clear(sim, g, sim->fluid_sums);
-    sph_sim_interaction_add(e, g, wall->index);
+    adding a = {.e = e, .fluid = g, .wall = wall->index};
+    sph_sim_pairs_share(sim, g, sim->fluid_sums, 0, add_share, &a);
     take(e, g, about, force, torque);
   }
 }

@@ -128,25 +128,29 @@ tile_constants sph_sim_interaction_tile(const sph_evaluation *e, const fluid_con
   return k;
 }
 
-void sph_sim_interaction_tiles(sph_evaluation *e, int target, int source)
+void sph_sim_interaction_tiles(const sph_evaluation *e, const sph_share *share, int target,
+                               int source)
 {
-  sph_sim *sim = e->sim;
+  const sph_sim *sim = e->sim;
   const fluid_constants fluid =
       sph_sim_interaction_constants(sim, e->part, sim->group[target], sim->group[source]);
   const tile_constants k = sph_sim_interaction_tile(e, &fluid, target, source);
-  sph_sim_pairs_loop(sim, sph_tile_loop(sim->isa, sim->kernel_number, sim->dim), target, source,
-                     &k);
+  sph_sim_pairs_loop_share(sim, share, sph_tile_loop(sim->isa, sim->kernel_number, sim->dim),
+                           target, source, &k);
 }
 
-void sph_sim_interaction_add(sph_evaluation *e, int target, int source)
+void sph_sim_interaction_add(const sph_evaluation *e, const sph_share *share, int target,
+                             int source)
 {
-  sph_sim *sim = e->sim;
+  const sph_sim *sim = e->sim;
   const fluid_constants k =
       sph_sim_interaction_constants(sim, e->part, sim->group[target], sim->group[source]);
   if (k.terms & SPH_PAIR_TERMS)
-    sph_sim_pairs_loop(sim, sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, k.terms), target,
-                       source, &k);
-  if (e->part->tiles && !sim->group[target]->eos.dust) sph_sim_interaction_tiles(e, target, source);
+    sph_sim_pairs_loop_share(sim, share,
+                             sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, k.terms),
+                             target, source, &k);
+  if (e->part->tiles && !sim->group[target]->eos.dust)
+    sph_sim_interaction_tiles(e, share, target, source);
 }
 
 /* ---- which fields tiles hold ---- */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "keep.h"
+#include "neighbors_sort.h"
 #include "sim_mirror.h"
 
 enum { PARALLEL_MIN = 4096, COUNTED = 16 }; /* builds of which one's pairs are counted */
@@ -44,6 +45,15 @@ static void take_down(const sph_evaluation *e, int g)
     memcpy(sim->sorted[g].built[d], e->view[g].x[d], (size_t)e->view[g].n * sizeof(double));
 }
 
+/* Records are made behind the lists: until then their memory holds sorted positions. */
+static void lend(sph_sim *sim, int g)
+{
+  const sph_sorted *sorted = &sim->sorted[g];
+  double *x[3];
+  for (int d = 0; d < 3; d++) x[d] = sorted->record + d * (sorted->room + SPH_LANES_MAX);
+  sph_neighbors_sort_lend(sim->neighbors, g, x);
+}
+
 /* Order and lists of the positions in `built`. */
 static int build(sph_sim *sim)
 {
@@ -53,6 +63,7 @@ static int build(sph_sim *sim)
   if (status) return status;
   for (int g = 0; !error.status && g < sim->groups; g++) {
     double *const *x = sim->sorted[g].built;
+    lend(sim, g);
     sph_neighbors_sort(sim->neighbors, g, sim->group[g]->n,
                        (const double *const[]){x[0], x[1], x[2]}, &error);
   }

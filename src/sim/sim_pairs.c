@@ -3,12 +3,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "cpu.h"
+#include "neighbors_sort.h"
 #include "sim_energy.h"
 #include "sim_rhs.h"
 #include "tile_pair.h"
 #include "wall_pair.h"
 
-enum { PARALLEL_MIN = 2048, PACKED = 256, BLOCKS = 64 };
+enum { PARALLEL_MIN = 2048, PACKED = 256, BLOCKS = SPH_SHARE_BLOCKS };
 
 /* What packing reads of one group. */
 typedef struct packing {
@@ -190,12 +192,52 @@ void sph_sim_pairs_loop_records(sph_sim *sim, sph_pair_function *loop, int targe
     loop(&task, c * BLOCKS, c + 1 < chunks ? (c + 1) * BLOCKS : list.blocks);
 }
 
-/* Adds what only some sets of terms have, of the sums at sorted place s, to the rates of particle
- * i. */
-static void add_more(const sph_sim *sim, const sph_part *part, const sph_group *group,
-                     const sph_view *view, long s, long i, double compression)
+long sph_sim_pairs_share(sph_sim *sim, int g, int sums, int scratch, sph_share_work *work,
+                         void *ctx)
 {
-  double *const *sum = sim->sorted[group->index].sum;
+  const long lanes = sph_cpu_lanes(sim->isa), blocks = (sim->group[g]->n + lanes - 1) / lanes;
+  const long shares = (blocks + BLOCKS - 1) / BLOCKS;
+#pragma omp parallel for num_threads(sim->threads) schedule(dynamic) if (shares > 2)
+  for (long c = 0; c < shares; c++) {
+    _Alignas(64) double memory[SPH_PAIR_SUMS][BLOCKS * SPH_LANES_MAX];
+    sph_share share = {.begin = c * BLOCKS, .end = c + 1 < shares ? (c + 1) * BLOCKS : blocks};
+    for (int s = 0; s < sums; s++) {
+      share.sum[s] = scratch ? memory[s] : sim->sorted[g].sum[s] + share.begin * lanes;
+      memset(share.sum[s], 0, (size_t)((share.end - share.begin) * lanes) * sizeof(double));
+    }
+    work(ctx, &share);
+  }
+  return shares;
+}
+
+long sph_sim_pairs_targets(const sph_sim *sim, int g, const sph_share *share)
+{
+  const long lanes = sph_cpu_lanes(sim->isa), n = sim->group[g]->n;
+  return (share->end * lanes < n ? share->end * lanes : n) - share->begin * lanes;
+}
+
+void sph_sim_pairs_loop_share(const sph_sim *sim, const sph_share *share, sph_pair_function *loop,
+                              int target, int source, const void *constants)
+{
+  const sph_list list = sph_neighbors_list(sim->neighbors, target, source);
+  const sph_sorted *to = &sim->sorted[target], *from = &sim->sorted[source];
+  const long first = share->begin * sph_cpu_lanes(sim->isa);
+  const sph_pair_task task = {.target = to->record + first * to->stride,
+                              .source = from->record,
+                              .target_stride = to->stride,
+                              .source_stride = from->stride,
+                              .first = list.first + share->begin,
+                              .runs = list.runs,
+                              .shift = sph_neighbors_shifts(sim->neighbors, NULL),
+                              .sum = share->sum,
+                              .constants = constants};
+  if (list.blocks) loop(&task, 0, share->end - share->begin);
+}
+
+/* Adds what only some sets of terms have, of the sums at place s, to the rates of particle i. */
+static void add_more(const sph_sim *sim, const sph_part *part, const sph_group *group,
+                     const sph_view *view, double *const *sum, long s, long i, double compression)
+{
   if (view->drho && part->tiles) view->drho[i] += sim->F_scale * sum[SPH_SUM_DENSITY][s];
   if (part->rates & SPH_XSPH)
     for (int d = 0; d < sim->dim; d++) view->dx[d][i] += sim->W_scale * sum[SPH_SUM_DRIFT + d][s];
@@ -207,28 +249,28 @@ static void add_more(const sph_sim *sim, const sph_part *part, const sph_group *
   view->du[i] = sph_sim_energy_rate(group, view, i, heat, compression);
 }
 
-/* Adds the sums at sorted places begin .. end - 1, scaled, to the rates. */
+/* Adds the sums of n particles from sorted place begin on, scaled, to the rates. */
 static void add_rates(const sph_sim *sim, const sph_part *part, const sph_group *group,
-                      const sph_view *at, long begin, long end)
+                      const sph_view *at, double *const *sums, long begin, long n)
 {
   const sph_view view = *at;
-  const sph_sorted *sorted = &sim->sorted[group->index];
-  const int *order = sph_neighbors_order(sim->neighbors, group->index);
+  const double *phi = sim->sorted[group->index].phi;
+  const int *order = sph_neighbors_order(sim->neighbors, group->index) + begin;
   const double *sum[SPH_SUM_DIFFUSION + 1], scale = sim->F_scale;
   const double diffusion =
       part->rates & SPH_DIFFUSION ? sim->terms.delta * sim->h * group->eos.c0 * scale : 0;
   const int compresses = (part->rates & SPH_CONTINUITY) != 0, dim = sim->dim;
   const int more = part->tiles || (part->rates & SPH_XSPH) || view.du;
-  for (int q = 0; q <= SPH_SUM_DIFFUSION; q++) sum[q] = sorted->sum[q];
-  for (long s = begin; s < end; s++) {
+  for (int q = 0; q <= SPH_SUM_DIFFUSION; q++) sum[q] = sums[q];
+  for (long s = 0; s < n; s++) {
     const long i = order[s];
     double compression = scale * sum[SPH_SUM_COMPRESSION][s];
     if (sim->loop_terms & SPH_FORM_C2) compression *= view.rho[i];
-    if (sorted->phi) compression *= sorted->phi[i];
+    if (phi) compression *= phi[i];
     for (int d = 0; d < dim; d++) view.dv[d][i] += scale * sum[SPH_SUM_A + d][s];
     if (view.drho && compresses) view.drho[i] += compression;
     if (view.drho && diffusion != 0) view.drho[i] += diffusion * sum[SPH_SUM_DIFFUSION][s];
-    if (more) add_more(sim, part, group, at, s, i, compression);
+    if (more) add_more(sim, part, group, at, sums, s, i, compression);
   }
 }
 
@@ -245,29 +287,43 @@ static void add_heating(const sph_evaluation *e, int g)
 
 void sph_sim_pairs_rates(sph_evaluation *e, int g)
 {
-  sph_sim *sim = e->sim;
-  if (!e->part->pairs) {
+  const sph_sim *sim = e->sim;
+  if (e->part->pairs)
+    add_rates(sim, e->part, sim->group[g], &e->view[g], sim->sorted[g].sum, 0, e->view[g].n);
+  else
     add_heating(e, g);
-    return;
-  }
-  const long n = e->view[g].n;
-#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
-  for (long s = 0; s < n; s += PACKED)
-    add_rates(sim, e->part, sim->group[g], &e->view[g], s, s + PACKED < n ? s + PACKED : n);
+}
+
+typedef struct adding {
+  const sph_evaluation *e;
+  int g;
+} adding;
+
+/* Sums of some targets, from all sources, then their rates, while these sums are in the cache. */
+static void add_share(void *ctx, const sph_share *share)
+{
+  const adding *a = ctx;
+  const sph_evaluation *e = a->e;
+  const sph_sim *sim = e->sim;
+  for (int s = 0; s < sim->groups; s++)
+    if (sph_sim_interaction_same_species(sim->group[a->g], sim->group[s]) &&
+        (sim->group[s]->wall || !e->part->only_walls))
+      sph_sim_interaction_add(e, share, a->g, s);
+  add_rates(sim, e->part, sim->group[a->g], &e->view[a->g], share->sum,
+            share->begin * sph_cpu_lanes(sim->isa), sph_sim_pairs_targets(sim, a->g, share));
 }
 
 int sph_sim_pairs_add(sph_evaluation *e)
 {
   sph_sim *sim = e->sim;
   for (int g = 0; g < sim->groups; g++) {
-    if (sim->group[g]->wall) sph_sim_walls_rates(e, g);
-    if (sim->group[g]->wall) continue;
-    if (e->part->pairs) sph_sim_pairs_clear(sim, g, sim->fluid_sums);
-    for (int s = 0; s < sim->groups && e->part->pairs; s++)
-      if (sph_sim_interaction_same_species(sim->group[g], sim->group[s]) &&
-          (sim->group[s]->wall || !e->part->only_walls))
-        sph_sim_interaction_add(e, g, s);
-    sph_sim_pairs_rates(e, g);
+    adding a = {.e = e, .g = g};
+    if (sim->group[g]->wall)
+      sph_sim_walls_rates(e, g);
+    else if (e->part->pairs)
+      sph_sim_pairs_share(sim, g, sim->fluid_sums, !e->sums, add_share, &a);
+    else
+      add_heating(e, g);
   }
   return SPH_OK;
 }

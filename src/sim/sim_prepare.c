@@ -8,7 +8,6 @@
 #include "eos_table.h"
 #include "gradient_pair.h"
 #include "memory.h"
-#include "neighbors_sort.h"
 #include "shift_pair.h"
 #include "sim_dominant.h"
 #include "sim_energy.h"
@@ -382,7 +381,7 @@ static int make_sorted(sph_sim *sim, int g)
   sorted->record =
       SPH_NEW(double, sorted->room * sorted->stride + SPH_PAIR_SLOTS, "records", &sim->error);
   for (int s = 0; s < sums_of(sim, sim->group[g]); s++)
-    sorted->sum[s] = SPH_NEW(double, sorted->room + SPH_LANES_MAX, "pair sums", &sim->error);
+    sorted->sum[s] = SPH_NEW(double, sorted->room, "pair sums", &sim->error);
   for (int d = 0; d < sim->dim; d++)
     sorted->built[d] = SPH_NEW(double, sorted->room, "positions of the lists", &sim->error);
   if (sim->loop_terms & SPH_SHIFTS)
@@ -418,9 +417,6 @@ static int make_search(sph_sim *sim)
   def.search = sim->uses_own_search ? NULL : sim->search;
   def.own = sim->uses_own_search ? &own : NULL;
   sim->neighbors = sph_neighbors_create(&def, &sim->error);
-  for (int g = 0; g < sim->groups && sim->neighbors; g++)
-    if (sums_of(sim, sim->group[g]) >= sim->dim) /* they begin behind the lists */
-      sph_neighbors_sort_lend(sim->neighbors, g, sim->sorted[g].sum);
   return sim->error.status;
 }
 

@@ -11,6 +11,7 @@ typedef struct sph_evaluation {
   double t;
   const sph_part *part; /* which is evaluated */
   int still;            /* the rates of positions are not written */
+  int sums;             /* those of pairs are wanted afterwards, not their rates alone */
   double limit_user;    /* step limit of body terms [s] */
   sph_view view[SPH_SETS_MAX];
   double drag_rate[2]; /* largest of fluids, of dust [1/s] */
@@ -48,7 +49,7 @@ int sph_sim_drag_add(sph_evaluation *e);               /* drag */
 int sph_sim_pairs_add(sph_evaluation *e);              /* pairs */
 int sph_sim_admit(sph_evaluation *e);                  /* admit */
 
-/* Rates of the particles of group g from its sums. */
+/* Rates of the particles of group g from its sums, where these were wanted. */
 void sph_sim_pairs_rates(sph_evaluation *e, int g);
 /* p, rho, m, c of the particles of wall g from its sums. */
 void sph_sim_walls_finish(const sph_evaluation *e, int g);
@@ -88,6 +89,22 @@ void sph_sim_gradients_solve(int dim, double L[3][3], double x[3]);
 void sph_sim_pairs_pack_positions(const sph_evaluation *e, int g);
 void sph_sim_pairs_clear(sph_sim *sim, int g, int sums);
 
+/* Some blocks of a group as targets, and where their sums go: what a thread does at once. */
+enum { SPH_SHARE_BLOCKS = 64 };
+typedef struct sph_share {
+  long begin, end;            /* blocks */
+  double *sum[SPH_PAIR_SUMS]; /* [(end - begin) * lanes] */
+} sph_share;
+
+/* Calls work for all shares of group g, by several threads, and returns their number; sums: how
+ * many there are, zero at first.  They are the group's own, or (scratch) of the moment. */
+typedef void sph_share_work(void *ctx, const sph_share *share);
+long sph_sim_pairs_share(sph_sim *sim, int g, int sums, int scratch, sph_share_work *work,
+                         void *ctx);
+long sph_sim_pairs_targets(const sph_sim *sim, int g, const sph_share *share); /* particles of it */
+void sph_sim_pairs_loop_share(const sph_sim *sim, const sph_share *share, sph_pair_function *loop,
+                              int target, int source, const void *constants);
+
 /* Runs one loop over all target blocks of (target <- source). */
 void sph_sim_pairs_loop(sph_sim *sim, sph_pair_function *loop, int target, int source,
                         const void *constants);
@@ -106,10 +123,12 @@ void sph_sim_material_phi(sph_evaluation *e, int walls);
 /* What body terms and phi see of a group. */
 sph_particles sph_sim_bodies_particles(const sph_evaluation *e, int g);
 
-/* The pair terms of (target <- source), added to the sums of the target. */
-void sph_sim_interaction_add(sph_evaluation *e, int target, int source);
+/* The pair terms of (target <- source), added to the sums of a share of the target. */
+void sph_sim_interaction_add(const sph_evaluation *e, const sph_share *share, int target,
+                             int source);
 /* Of them the registered ones alone. */
-void sph_sim_interaction_tiles(sph_evaluation *e, int target, int source);
+void sph_sim_interaction_tiles(const sph_evaluation *e, const sph_share *share, int target,
+                               int source);
 fluid_constants sph_sim_interaction_constants(const sph_sim *sim, const sph_part *part,
                                               const sph_group *target, const sph_group *source);
 /* What tiles of (target <- source) hold, beside built-in terms with these constants. */

@@ -403,7 +403,7 @@ static sph_tangent *start(sph_sim *sim, int part, double t, const double *y, int
 {
   sph_tangent *own = sph_sim_tangent_get(sim);
   if (!own) return NULL;
-  own->e = (sph_evaluation){.sim = sim, .t = t, .part = &sim->part[part]};
+  own->e = (sph_evaluation){.sim = sim, .t = t, .part = &sim->part[part], .sums = 1};
   own->y = y;
   own->s = NULL;
   own->theta = NULL;

@@ -356,15 +356,27 @@ static void copy_records(sph_tangent *t)
            (size_t)(t->sim->sorted[g].room * t->sim->sorted[g].stride) * sizeof(double));
 }
 
+typedef struct adding {
+  const sph_tangent *t;
+  int g;
+} adding;
+
+static void add_share(void *ctx, const sph_share *share)
+{
+  const adding *a = ctx;
+  const sph_sim *sim = a->t->sim;
+  for (int s = 0; s < sim->groups && !sim->group[a->g]->eos.dust; s++)
+    if (sph_sim_interaction_same_species(sim->group[a->g], sim->group[s]))
+      sph_sim_interaction_tiles(&a->t->e, share, a->g, s);
+}
+
 static void add_tiles(sph_tangent *t, double factor)
 {
   sph_sim *sim = t->sim;
   for (int g = 0; g < sim->groups; g++) {
+    adding a = {.t = t, .g = g};
     if (sim->group[g]->wall) continue;
-    sph_sim_pairs_clear(sim, g, sim->fluid_sums);
-    for (int s = 0; s < sim->groups && !sim->group[g]->eos.dust; s++)
-      if (sph_sim_interaction_same_species(sim->group[g], sim->group[s]))
-        sph_sim_interaction_tiles(&t->e, g, s);
+    sph_sim_pairs_share(sim, g, sim->fluid_sums, 0, add_share, &a);
     for (int q = 0; q < sim->fluid_sums; q++)
       for (long i = 0; i < sim->group[g]->n; i++)
         t->group[g].sum_d[q][i] += factor * sim->sorted[g].sum[q][i];
