@@ -119,6 +119,7 @@ int main(int argc, char **argv)
   bench_search();
   bench_operators();
   bench_rhs();
+  bench_phases();
   bench_baseline();
   bench_derivatives();
   bench_integration();

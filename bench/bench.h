@@ -21,6 +21,7 @@ void bench_search(void);      /* grid, hash, tree on uneven points; with --filte
 void bench_rhs(void);         /* right-hand sides */
 void bench_baseline(void);    /* the same over a good plain code; growth with size */
 void bench_dam(void);         /* SPHERIC's test 2, a developed flow; with --filter only */
+void bench_phases(void);      /* phases of right-hand sides, operations of vectors */
 void bench_threads(void);     /* threads over one; with --filter only */
 void bench_reach(void);       /* physical time per evaluation; with --filter only */
 void bench_operators(void);   /* operators on points */
