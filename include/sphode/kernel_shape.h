@@ -4,7 +4,7 @@
  *   W = (sigma_d/h^d) w(q),  F = W'/r = (sigma_d/h^(d+2)) f(q),  f = w'/q,  q = r/h >= 0
  *   laplacian = (sigma_d/h^(d+2)) l(q),  l = w'' + (d - 1) f
  *
- * The three functions at the end take kernel and dim as constants and compile to the formulas
+ * The functions at the end take kernel and dim as constants and compile to the formulas
  * alone.  They are finite at q = 0 and zero for q >= kappa, without branches: a loop needs no
  * test of the distance.  f never divides by a small q (but that of spiky, which is singular), and
  * does not change sign by rounding at the edge of the support.
@@ -54,6 +54,13 @@ BODY vec kernel_wendland_c2_f(int dim, vec q)
 {
   vec t = v_max0(1 - 0.5 * q);
   return dim == 1 ? -3 * t * t : -5 * t * t * t;
+}
+/* f for loops: its factor and that of r go into constants: s = -5^(1/3) t, f = s^3 in 2D, 3D. */
+BODY vec kernel_wendland_c2_f_at(int dim, vec r, vec_scalar inverse_h)
+{
+  const double root = 1.709975946676697; /* 5^(1/3) */
+  vec s = v_min0(r * (0.5 * root * inverse_h) - root);
+  return dim == 1 ? kernel_wendland_c2_f(dim, r * inverse_h) : s * s * s;
 }
 BODY vec kernel_wendland_c2_laplacian(int dim, vec q)
 {
@@ -239,6 +246,12 @@ BODY vec kernel_shape_f(int kernel, int dim, vec q)
 {
   SPH_KERNEL_SHAPES(SPH_KERNEL_F)
   return v_set(NAN);
+}
+/* f(r/h), to rounding, with fewer operations where there is a way. */
+BODY vec kernel_shape_f_at(int kernel, int dim, vec r, vec_scalar inverse_h)
+{
+  if (kernel == SPH_KERNEL_WENDLAND_C2) return kernel_wendland_c2_f_at(dim, r, inverse_h);
+  return kernel_shape_f(kernel, dim, r * inverse_h);
 }
 BODY vec kernel_shape_laplacian(int kernel, int dim, vec q)
 {

@@ -199,7 +199,7 @@ BODY pair fluid_pair_common(int dim, int kernel, unsigned terms, const fluid_con
     p.rv_viscous = fluid_dot(dim, p.r, p.v_viscous);
   }
   p.distance = v_sqrt(p.r2);
-  p.F = kernel_shape_f(kernel, dim, p.distance * k->inverse_h);
+  p.F = kernel_shape_f_at(kernel, dim, p.distance, k->inverse_h);
   p.VF = p.F * j->V;
   p.mF = p.VF * j->rho;
   p.stretch = v_set(1);

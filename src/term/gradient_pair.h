@@ -18,12 +18,13 @@ BODY void gradient_pair(int dim, int kernel, const fluid_constants *k, const vec
 {
   vec r[3];
   for (int d = 0; d < dim; d++) r[d] = i[d] - j[d];
-  vec F = kernel_shape_f(kernel, dim, v_sqrt(fluid_dot(dim, r, r)) * k->inverse_h);
-  vec VF = F * j[slot_V(dim)], jump = j[slot_rho(dim)] - i[slot_rho(dim)];
+  vec F = kernel_shape_f_at(kernel, dim, v_sqrt(fluid_dot(dim, r, r)), k->inverse_h);
+  vec VF = F * j[slot_V(dim)], jump = j[slot_rho(dim)] - i[slot_rho(dim)], VFr[3];
   int s = 0;
+  for (int a = 0; a < dim; a++) VFr[a] = VF * r[a];
   for (int a = 0; a < dim; a++)
-    for (int b = a; b < dim; b++) sum[s++] -= VF * r[a] * r[b];
-  for (int a = 0; a < dim; a++) sum[s++] += VF * jump * r[a];
+    for (int b = a; b < dim; b++) sum[s++] -= VFr[a] * r[b];
+  for (int a = 0; a < dim; a++) sum[s++] += jump * VFr[a];
 }
 
 #endif

@@ -168,7 +168,7 @@ BODY void tile_F(int dim, int kernel, const tile_constants *k, tile_rows *rows, 
 {
   const double inverse_h = k->fluid.inverse_h, scale = k->F_scale;
   for (int q = 0; q < n; q++)
-    rows->F[q] = scale * kernel_shape_f(kernel, dim, v_sqrt(rows->r2[q]) * inverse_h);
+    rows->F[q] = scale * kernel_shape_f_at(kernel, dim, v_sqrt(rows->r2[q]), inverse_h);
 }
 
 /* What is read of rows 0 .. n - 1 besides r and r2, one after another: short loops, whose roots and

@@ -197,6 +197,27 @@ static void self(void **state)
     }
 }
 
+/* f of a distance, as loops take it: that of q to rounding, not above 0 at the edge, 0 behind. */
+static void f_at(void **state)
+{
+  (void)state;
+  for (int k = 0; k < SPH_KERNELS; k++)
+    for (int dim = 1; dim <= 3; dim++) {
+      const double h = 0.37, edge = sph_kernel_support(sph_kernel_get(k)) * h;
+      for (int n = 0; n <= 1000; n++) {
+        const double r = edge * n / 1000, q = r / h, t = 1 - r / edge;
+        const double f = kernel_shape_f(k, dim, v_set(q))[0];
+        const double f_r = kernel_shape_f_at(k, dim, v_set(r), 1 / h)[0];
+        /* one rounding of 1 - r/edge is 1e-16/t of t, of which f is a power of at most 7 */
+        if (!(fabs(f_r - f) <= 1e-14 * fabs(f) + 2e-15 * fabs(f) / (t + 1e-16) && f_r <= 0))
+          fail_msg("kernel %d, %dD, q = %g: %.17g, of q %.17g", k, dim, q, f_r, f);
+      }
+      const double beyond[] = {edge * (1 + 1e-12), 1.5 * edge, 1e100};
+      for (int n = 0; n < 3; n++)
+        assert_true(kernel_shape_f_at(k, dim, v_set(beyond[n]), 1 / h)[0] == 0);
+    }
+}
+
 /* The shapes once more, in long double, by the formulas of the literature: branches, powers, expl.
  * w' = w'(q); s_k = (k - q)+ */
 static long double power_of(long double k, long double q, int n)
@@ -427,9 +448,9 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(table),     cmocka_unit_test(integral),  cmocka_unit_test(derivatives),
-      cmocka_unit_test(support),   cmocka_unit_test(self),      cmocka_unit_test(at_random),
-      cmocka_unit_test(deviation), cmocka_unit_test(transform), cmocka_unit_test(lattices),
-      cmocka_unit_test(facts),
+      cmocka_unit_test(support),   cmocka_unit_test(self),      cmocka_unit_test(f_at),
+      cmocka_unit_test(at_random), cmocka_unit_test(deviation), cmocka_unit_test(transform),
+      cmocka_unit_test(lattices),  cmocka_unit_test(facts),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
