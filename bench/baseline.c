@@ -1,19 +1,13 @@
 #include "baseline.h"
 
+#include "cpu.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define PI 3.14159265358979323846
 enum { STRIDE = 10 }; /* of a record: x[3] v[3] rho p c V */
-
-/* A plain code is compiled for the machine it runs on, too. */
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define FOR_THIS_CPU __attribute__((target_clones("arch=haswell", "default")))
-#else
-#define FOR_THIS_CPU
-#endif
 
 struct baseline {
   baseline_def def;
@@ -29,7 +23,19 @@ struct baseline {
   long near_room;
 };
 
-baseline *baseline_create(const baseline_def *def)
+static void baseline_free(baseline *b)
+{
+  if (!b) return;
+  free(b->cell);
+  free(b->start);
+  free(b->order);
+  free(b->record);
+  free(b->first);
+  free(b->near);
+  free(b);
+}
+
+static baseline *baseline_create(const baseline_def *def)
 {
   baseline *b = calloc(1, sizeof *b);
   if (!b) return NULL;
@@ -44,18 +50,6 @@ baseline *baseline_create(const baseline_def *def)
   if (b->cell && b->order && b->record && b->first) return b;
   baseline_free(b);
   return NULL;
-}
-
-void baseline_free(baseline *b)
-{
-  if (!b) return;
-  free(b->cell);
-  free(b->start);
-  free(b->order);
-  free(b->record);
-  free(b->first);
-  free(b->near);
-  free(b);
 }
 
 /* Cells half as wide as the support, over all particles. */
@@ -120,7 +114,6 @@ static int reserve(baseline *b, long more, long used)
 }
 
 /* Appends those of the sorted places begin .. end - 1 that place s reaches. */
-FOR_THIS_CPU
 static long add_near(const baseline *b, long s, long begin, long end, long n)
 {
   const double *at = b->record + s * STRIDE, reach2 = b->reach * b->reach;
@@ -161,7 +154,7 @@ static void pack_positions(baseline *b)
     for (int d = 0; d < b->def.dim; d++) b->record[s * STRIDE + d] = b->def.x[d][b->order[s]];
 }
 
-int baseline_build(baseline *b)
+static int baseline_build(baseline *b)
 {
   long n = 0;
   if (!sort(b)) return 0;
@@ -216,7 +209,6 @@ static inline __attribute__((always_inline)) void row(const baseline *b, long s,
   }
 }
 
-FOR_THIS_CPU
 static void rows(const baseline *b, double *const dv[3], double *drho)
 {
   const baseline_def *def = &b->def;
@@ -234,8 +226,11 @@ static void rows(const baseline *b, double *const dv[3], double *drho)
   }
 }
 
-void baseline_rates(baseline *b, double *const dv[3], double *drho)
+static void baseline_rates(baseline *b, double *const dv[3], double *drho)
 {
   pack(b);
   rows(b, dv, drho);
 }
+
+const baseline_code SPH_ISA_NAME(baseline_code) = {baseline_create, baseline_free, baseline_build,
+                                                   baseline_rates};

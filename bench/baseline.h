@@ -1,7 +1,8 @@
 /* baseline.h -- what speed is compared with: the same right-hand side as a good plain code has it.
  *
  * Particles sorted by cells, one record each; a full neighbour list in compressed rows, exact; a
- * scalar loop over it, with the compiler flags of the library's loops.  One liquid in open space,
+ * scalar loop over it, compiled with -O3 (or the flags given to configure) for the instruction set
+ * of the library's loops.  One liquid in open space,
  * Wendland C2: continuity, pressure (C2), artificial viscosity (beta = 0), Molteni's diffusion,
  * Tait with gamma = 7.  Not a line of it is the library's. */
 #ifndef BASELINE_H
@@ -20,12 +21,12 @@ typedef struct baseline_def {
 
 typedef struct baseline baseline;
 
-/* NULL: no memory. */
-baseline *baseline_create(const baseline_def *def);
-void baseline_free(baseline *b);
-/* Sorts, and builds the rows; 0: no memory. */
-int baseline_build(baseline *b);
-/* Pack, pair loop, unpack: dv[d][n], drho[n] in the user's order. */
-void baseline_rates(baseline *b, double *const dv[3], double *drho);
+typedef struct baseline_code {
+  baseline *(*create)(const baseline_def *def); /* NULL: no memory */
+  void (*free)(baseline *b);
+  int (*build)(baseline *b); /* sorts, and builds the rows; 0: no memory */
+  /* Pack, pair loop, unpack: dv[d][n], drho[n] in the user's order. */
+  void (*rates)(baseline *b, double *const dv[3], double *drho);
+} baseline_code;
 
 #endif

@@ -5,13 +5,15 @@
  * side.  Spread: (largest - smallest)/median; ratio: to the figure `baseline` of the same run.
  *
  * Rates are in million directed pairs inside the support per second of one core's CPU time; ratios
- * inside one run are worth more than any rate. */
+ * inside one run are worth more than any rate.  Exit status: 1 if something failed, rates or bits
+ * differ that should not, or no figure has TEXT in its name. */
 #define _POSIX_C_SOURCE 200809L
 #include "bench.h"
 #include "config.h"
 
 #include <math.h>
 #include <sphode.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +31,27 @@ double bench_thread_seconds(void)
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-int bench_wanted(const char *name) { return !options.filter || strstr(name, options.filter); }
+static int printed, complaints;
+
+void bench_complain(const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  fprintf(stderr, "bench: ");
+  vfprintf(stderr, format, arguments);
+  fprintf(stderr, "\n");
+  va_end(arguments);
+  complaints++;
+}
+
+/* Is this figure one of those that the filter names? */
+static int asked(const char *name) { return !options.filter || strstr(name, options.filter); }
+
+/* ... or some of those whose names begin so? */
+int bench_wanted(const char *name)
+{
+  return asked(name) || !strncmp(options.filter, name, strlen(name));
+}
 
 int bench_filtered(void) { return options.filter != NULL; }
 
@@ -50,6 +72,8 @@ static double median_of(double *values, int n)
 void bench_report_over(const char *name, const char *unit, double *values, int n,
                        const char *baseline, double *ratios)
 {
+  if (!asked(name)) return;
+  printed++;
   double median = median_of(values, n), ratio = ratios ? median_of(ratios, n) : 0;
   double spread = median != 0 ? (values[n - 1] - values[0]) / fabs(median) : 0;
   if (!options.json) {
@@ -87,16 +111,23 @@ static void processor(char *name, size_t size)
   if (file) fclose(file);
 }
 
-static void introduce(void)
+static int introduce(void)
 {
   char cpu[200];
   processor(cpu, sizeof cpu);
   sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 2, .dx = 1});
-  printf(options.json ? "{\"sphode\": \"%s\", \"cpu\": \"%s\", \"isa\": \"%s\", \"threads\": 1, "
-                        "\"compiler\": \"%s %s\", \"flags\": \"%s\"}\n"
-                      : "sphode %s; %s, %s, one thread; %s %s %s\n",
-         sph_version(), cpu, sph_sim_isa(sim), SPH_COMPILER, __VERSION__, SPH_CFLAGS);
+  const int status = sph_sim_status(sim);
+  if (status)
+    bench_complain("%s", sph_sim_error(sim));
+  else
+    printf(options.json
+               ? "{\"sphode\": \"%s\", \"cpu\": \"%s\", \"isa\": \"%s\", \"sizes\": \"%s\", "
+                 "\"compiler\": \"%s %s\", \"flags\": \"%s\"}\n"
+               : "sphode %s; %s, %s; %s sizes; %s %s %s\n",
+           sph_version(), cpu, sph_sim_isa(sim), options.quick ? "small" : "full", SPH_COMPILER,
+           __VERSION__, SPH_CFLAGS);
   sph_sim_free(sim);
+  return status;
 }
 
 int main(int argc, char **argv)
@@ -113,7 +144,7 @@ int main(int argc, char **argv)
       return 2;
     }
   }
-  introduce();
+  if (introduce()) return 2;
   bench_memory(); /* first: nothing is left of others */
   bench_neighbors();
   bench_search();
@@ -132,5 +163,7 @@ int main(int argc, char **argv)
   bench_linear();
   bench_imex();
   bench_multirate();
-  return 0;
+  if (!printed)
+    bench_complain("no figure has \"%s\" in its name", options.filter ? options.filter : "");
+  return complaints > 0;
 }

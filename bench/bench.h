@@ -14,6 +14,8 @@ void bench_report(const char *name, const char *unit, double *values, int n);
 void bench_report_over(const char *name, const char *unit, double *values, int n,
                        const char *baseline, double *ratios);
 int bench_quick(void); /* --quick: small sizes */
+/* Says it on stderr; the program then fails in the end. */
+void bench_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 void bench_memory(void);      /* bytes a particle, by parts */
 void bench_neighbors(void);   /* sort and list build */

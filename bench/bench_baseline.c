@@ -7,6 +7,15 @@
 
 #include "baseline.h"
 #include "bench.h"
+#include "cpu.h"
+
+#define DECLARE(isa) extern const baseline_code baseline_code_##isa;
+SPH_ISA_BUILT(DECLARE)
+static const baseline_code *const codes[SPH_ISA_COUNT] = {
+#define ROW(isa) [SPH_ISA_##isa] = &baseline_code_##isa,
+    SPH_ISA_BUILT(ROW)
+#undef ROW
+};
 
 enum { REPEATS = 9 };
 static const double ALPHA = 0.02, DELTA = 0.1, RHO0 = 1000, C0 = 10;
@@ -54,7 +63,7 @@ static double seconds_of(sph_sim *sim, double *pairs)
   sph_sim_stats before, after;
   sph_sim_get_stats(sim, &before);
   double begin = bench_thread_seconds();
-  if (sph_sim_evaluate(sim)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (sph_sim_evaluate(sim)) bench_complain("%s", sph_sim_error(sim));
   double seconds = bench_thread_seconds() - begin;
   sph_sim_get_stats(sim, &after);
   if (pairs) *pairs = after.pairs - before.pairs;
@@ -97,12 +106,11 @@ static void compare(const char *name, const sph_group *fluid, int dim, double *c
   double most = apart(sph_group_rate(fluid, "density", 0), drho, n);
   for (int d = 0; d < dim; d++)
     most = fmax(most, apart(sph_group_rate(fluid, "velocity", d), dv[d], n));
-  if (most > 1e-11)
-    fprintf(stderr, "bench: %s: the rates differ by %g of the largest\n", name, most);
+  if (most > 1e-11) bench_complain("%s: the rates differ by %g of the largest", name, most);
 }
 
-static void turns(const char *name, sph_sim *sim, baseline *plain, int rebuild, double *const dv[3],
-                  double *drho)
+static void turns(const char *name, sph_sim *sim, const baseline_code *code, baseline *plain,
+                  int rebuild, double *const dv[3], double *drho)
 {
   char other[80];
   double rate[REPEATS], ratio[REPEATS], plain_rate[REPEATS], pairs;
@@ -110,8 +118,8 @@ static void turns(const char *name, sph_sim *sim, baseline *plain, int rebuild, 
   for (int k = -1; k < REPEATS; k++) {
     if (rebuild) move(sim);
     double ours = seconds_of(sim, &pairs), begin = bench_thread_seconds();
-    if (rebuild && !baseline_build(plain)) return;
-    baseline_rates(plain, dv, drho);
+    if (rebuild && !code->build(plain)) return;
+    code->rates(plain, dv, drho);
     double its = bench_thread_seconds() - begin;
     if (k < 0) continue;
     rate[k] = pairs / ours / 1e6;
@@ -132,14 +140,15 @@ static void measure(int dim, long across, const char *size, int rebuild)
   const sph_group *fluid = sph_sim_group(sim, "fluid");
   const baseline_def def = definition(sim, fluid);
   double *work = calloc(4 * (size_t)def.n, sizeof *work);
-  baseline *plain = baseline_create(&def);
-  if (work && plain && baseline_build(plain)) {
+  const baseline_code *code = codes[sph_cpu_isa(NULL, NULL)];
+  baseline *plain = code->create(&def);
+  if (work && plain && code->build(plain)) {
     double *const dv[3] = {work, work + def.n, work + 2 * def.n}, *drho = work + 3 * def.n;
-    turns(name, sim, plain, rebuild, dv, drho);
+    turns(name, sim, code, plain, rebuild, dv, drho);
     compare(name, fluid, dim, dv, drho);
   }
   free(work);
-  baseline_free(plain);
+  code->free(plain);
   sph_sim_free(sim);
 }
 

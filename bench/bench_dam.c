@@ -35,7 +35,7 @@ static void measure_step(int n, const char *size, const char *delta)
     double seconds = bench_thread_seconds() - begin;
     if (k >= 0) rate[k] = (pairs_of(sim) - pairs) / seconds / 1e6;
   }
-  if (sph_sim_status(sim)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (sph_sim_status(sim)) bench_complain("%s", sph_sim_error(sim));
   bench_report(name, "Mpairs/s", rate, REPEATS);
   sph_sim_free(sim);
 }
@@ -43,7 +43,7 @@ static void measure_step(int n, const char *size, const char *delta)
 static double rate_of(sph_sim *sim)
 {
   double pairs = pairs_of(sim), begin = bench_thread_seconds();
-  if (sph_sim_evaluate(sim)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (sph_sim_evaluate(sim)) bench_complain("%s", sph_sim_error(sim));
   double seconds = bench_thread_seconds() - begin;
   return (pairs_of(sim) - pairs) / seconds / 1e6;
 }
@@ -58,7 +58,7 @@ static void measure_developed(const char *delta)
   if (!bench_wanted(name)) return;
   sph_sim *developed = bench_flow_dam(n, delta, "erk:bogacki-shampine-4-2-3", 0, 1);
   sph_sim *lattice = bench_flow_dam(n, delta, "leapfrog", 0.1, 1);
-  if (sph_sim_run(developed, 0.9)) fprintf(stderr, "bench: %s\n", sph_sim_error(developed));
+  if (sph_sim_run(developed, 0.9)) bench_complain("%s", sph_sim_error(developed));
   for (int k = -1; k < REPEATS; k++) {
     double a = rate_of(developed), b = rate_of(lattice);
     if (k >= 0) rate[k] = a, ratio[k] = a / b;

@@ -59,7 +59,7 @@ static void products(int dim, long across, int walls)
       if (k >= 0) ratio[which][k] = share;
     }
   }
-  if (sph_sim_status(sim)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (sph_sim_status(sim)) bench_complain("%s", sph_sim_error(sim));
   for (int which = 1; which < 3; which++) bench_report(name[which], "1", ratio[which], REPEATS);
   N_VDestroy(s);
   N_VDestroy(z);
@@ -75,7 +75,7 @@ static void matrix(int dim, long across, int walls)
   if (!bench_wanted(name) || (dim == 3 && !bench_filtered())) return;
   sph_sim *sim = water(dim, across, walls);
   sph_jacobian *J = sph_jacobian_create(sim, NULL);
-  if (sph_jacobian_evaluate(J)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (sph_jacobian_evaluate(J)) bench_complain("%s", sph_sim_error(sim));
   value = J ? (double)J->products : 0;
   bench_report(name, "1", &value, 1);
   sph_jacobian_free(J);

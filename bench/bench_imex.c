@@ -178,7 +178,7 @@ static result run(const problem *p, const sph_integrator_def *def)
   result r = {0};
   sph_sim *sim = p->make(p, def);
   double begin = bench_thread_seconds();
-  if (sph_sim_run(sim, p->end)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (sph_sim_run(sim, p->end)) bench_complain("%s", sph_sim_error(sim));
   r.seconds = bench_thread_seconds() - begin;
   sph_sim_stats stats;
   sph_sim_get_stats(sim, &stats);

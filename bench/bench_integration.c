@@ -39,7 +39,7 @@ static void measure(int dim, long across, const char *method, double tolerance)
     double inside = after.rhs_seconds - before.rhs_seconds;
     if (k >= 0) share[k] = 100 * (after.seconds - before.seconds - inside) / inside;
   }
-  if (sph_sim_status(sim)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (sph_sim_status(sim)) bench_complain("%s", sph_sim_error(sim));
   bench_report(name, "% of rhs", share, REPEATS);
   sph_sim_free(sim);
 }

@@ -39,7 +39,7 @@ static double noise(unsigned *state)
 static void *array(long n, size_t size)
 {
   void *memory = calloc((size_t)n, size);
-  if (!memory) fprintf(stderr, "bench: out of memory\n"), exit(1);
+  if (!memory) bench_complain("out of memory"), exit(1);
   return memory;
 }
 
@@ -103,7 +103,7 @@ static void fill(linear_system *s)
   sph_csr *A = &s->A;
   const lattice *l = &s->lattice;
   if (sph_csr_reserve(A, l->n, l->n * entries[l->dim], &error))
-    fprintf(stderr, "bench: %s\n", error.text), exit(1);
+    bench_complain("%s", error.text), exit(1);
   A->n = l->n;
   for (long i = 0; i < l->n; i++) add_row(A, l, i);
 }
@@ -176,7 +176,7 @@ static double solve(sph_linear *solver, linear_system *s, long pattern, long val
   int status = sph_linear_solve(solver, &task, &error);
   double seconds = bench_thread_seconds() - begin;
   if (!status) return seconds;
-  fprintf(stderr, "bench: %s\n", status > 0 ? sph_linear_reason(solver) : error.text);
+  bench_complain("%s", status > 0 ? sph_linear_reason(solver) : error.text);
   return -1;
 }
 
@@ -195,7 +195,7 @@ static double measure(const char *name, const char *method, linear_system *s)
   sph_error error = {0};
   sph_linear *solver = sph_linear_create(method, 1, &error);
   long number = 0;
-  if (!solver) fprintf(stderr, "bench: %s\n", error.text), exit(1);
+  if (!solver) bench_complain("%s", error.text), exit(1);
   for (int k = 0; k < REPEATS; k++) {
     pattern[k] = solve(solver, s, number, number);
     values[k] = solve(solver, s, number, number + 1);

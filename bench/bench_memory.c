@@ -82,7 +82,7 @@ static void measure(const char *what, const char *method, long across)
   sph_sim *sim = make(across, method);
   for (int k = 0; k < STEPS; k++) sph_sim_step(sim);
   double all = resident() - before, n = (double)across * (double)across * (double)across;
-  if (sph_sim_status(sim)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (sph_sim_status(sim)) bench_complain("%s", sph_sim_error(sim));
   double copy = sorted_copy(sim), own = fields(sim), near = lists(sim);
   report(name, "all", all / n);
   report(name, "sorted copy", copy / n);
@@ -97,5 +97,5 @@ void bench_memory(void)
   long across = bench_quick() ? 46 : 100;
   measure("memory", "leapfrog", across);
   measure("memory", "erk:bogacki-shampine-4-2-3", across);
-  if (bench_filtered()) measure("memory-1e7", "leapfrog", 216); /* 1e7 particles, minutes */
+  if (bench_filtered()) measure("bytes-1e7", "leapfrog", 216); /* 1e7 particles, minutes */
 }

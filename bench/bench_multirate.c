@@ -171,7 +171,7 @@ static double *run(const scene *s, const sph_integrator_def *def, const char *fa
   sph_sim *sim = make(s, def, fast);
   sph_sim_stats stats;
   double begin = bench_thread_seconds(), size = 0;
-  if (sph_sim_run(sim, s->t_end)) fprintf(stderr, "bench: %s: %s\n", s->name, sph_sim_error(sim));
+  if (sph_sim_run(sim, s->t_end)) bench_complain("%s: %s", s->name, sph_sim_error(sim));
   out->seconds = bench_thread_seconds() - begin;
   sph_sim_get_stats(sim, &stats);
   out->steps = stats.step;

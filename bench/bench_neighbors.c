@@ -86,7 +86,7 @@ static void measure(const cloud *c)
   for (long b = 0; b < sph_neighbors_list(nb, 0, 0).blocks; b++)
     pairs += pairs_of_block(c, nb, b, lanes);
   if (error.status)
-    fprintf(stderr, "bench: %s\n", error.text);
+    bench_complain("%s", error.text);
   else {
     report(c, "sort", pairs, sort);
     report(c, "build", pairs, build);

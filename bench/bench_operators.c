@@ -23,7 +23,7 @@ static double noise(unsigned *state)
 static double *array(long n)
 {
   double *a = calloc((size_t)n, sizeof *a);
-  if (!a) fprintf(stderr, "bench: out of memory\n"), exit(1);
+  if (!a) bench_complain("out of memory"), exit(1);
   return a;
 }
 

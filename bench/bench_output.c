@@ -63,7 +63,7 @@ static double steps(sph_sim *sim)
   sph_sim_step(sim); /* the first lists */
   double begin = bench_thread_seconds(), start = sph_sim_time(sim);
   for (int k = 0; k < STEPS; k++) sph_sim_step(sim);
-  if (sph_sim_status(sim)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (sph_sim_status(sim)) bench_complain("%s", sph_sim_error(sim));
   return (bench_thread_seconds() - begin) * interval / (sph_sim_time(sim) - start);
 }
 
@@ -89,7 +89,7 @@ static void measure(sph_sim *sim, const char *size, const char *kind, const sph_
     unlink(path);
   }
   output.free(output.ctx);
-  if (status) fprintf(stderr, "bench: %s\n", error.text);
+  if (status) bench_complain("%s", error.text);
   if (status) return;
   snprintf(name, sizeof name, "output/3d/%s/%s/frame", size, kind);
   bench_report(name, "s", frame, REPEATS);

@@ -50,14 +50,14 @@ static double seconds_of(const phase *p, sph_evaluation *e)
   const double begin = bench_thread_seconds();
   const int status = p->run(e);
   const double seconds = bench_thread_seconds() - begin;
-  if (status) fprintf(stderr, "bench: phase %s: status %d\n", p->name, status);
+  if (status) bench_complain("phase %s: status %d", p->name, status);
   return seconds;
 }
 
 static double whole(sph_sim *sim)
 {
   const double begin = bench_thread_seconds();
-  if (sph_sim_rhs(sim->time, sim->y, sim->ydot, sim)) fprintf(stderr, "bench: rhs failed\n");
+  if (sph_sim_rhs(sim->time, sim->y, sim->ydot, sim)) bench_complain("rhs failed");
   return bench_thread_seconds() - begin;
 }
 
@@ -73,7 +73,7 @@ static void measure_phases(const char *flow, sph_sim *sim)
 {
   double seconds[PHASES][REPEATS], ratio[PHASES][REPEATS], all[REPEATS], one[REPEATS];
   long n = 0;
-  if (sph_sim_evaluate(sim)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (sph_sim_evaluate(sim)) bench_complain("%s", sph_sim_error(sim));
   for (int g = 0; g < sim->groups; g++) n += sim->group[g]->n;
   for (int k = -1; k < REPEATS; k++) {
     const int at = k < 0 ? 0 : k;

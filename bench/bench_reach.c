@@ -39,7 +39,7 @@ static void measure(int dim, const sph_integrator_info *info)
   sph_sim *sim = make(dim, info->name);
   sph_sim_stats stats = {0};
   if (sph_sim_run(sim, 2 * sqrt(H / g))) {
-    fprintf(stderr, "bench: %s: %s\n", name, sph_sim_error(sim));
+    bench_complain("%s: %s", name, sph_sim_error(sim));
   } else {
     sph_sim_get_stats(sim, &stats);
     double reach =

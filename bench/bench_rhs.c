@@ -15,7 +15,7 @@ static double rate_of(sph_sim *sim)
   sph_sim_stats before, after;
   sph_sim_get_stats(sim, &before);
   double begin = bench_thread_seconds();
-  if (sph_sim_evaluate(sim)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (sph_sim_evaluate(sim)) bench_complain("%s", sph_sim_error(sim));
   double seconds = bench_thread_seconds() - begin;
   sph_sim_get_stats(sim, &after);
   return (after.pairs - before.pairs) / seconds / 1e6;

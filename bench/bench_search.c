@@ -142,7 +142,7 @@ static double seconds_of(sph_sim *sim, int rebuild, double *pairs)
   for (long i = 0; rebuild && x && i < sph_group_count(fluid); i++) x[i] += 1e-3;
   sph_sim_get_stats(sim, &before);
   const double begin = bench_thread_seconds();
-  if (sph_sim_evaluate(sim)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (sph_sim_evaluate(sim)) bench_complain("%s", sph_sim_error(sim));
   const double seconds = bench_thread_seconds() - begin;
   sph_sim_get_stats(sim, &after);
   *pairs = after.pairs - before.pairs;

@@ -39,8 +39,7 @@ static sph_sim *make(const flow *f, int threads)
 
 static void go(const flow *f, sph_sim *sim)
 {
-  if (f->rhs ? sph_sim_evaluate(sim) : sph_sim_step(sim))
-    fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (f->rhs ? sph_sim_evaluate(sim) : sph_sim_step(sim)) bench_complain("%s", sph_sim_error(sim));
 }
 
 /* Wall and CPU seconds of one. */
@@ -108,7 +107,7 @@ static void compare(const flow *f)
     double differ = (double)differing(one, other) + (sph_sim_status(other) != SPH_OK);
     snprintf(name, sizeof name, "threads/%s/other-bits/%d", f->name, threads);
     bench_report(name, "entries", &differ, 1);
-    if (differ > 0) fprintf(stderr, "bench: %s: results depend on the threads\n", f->name);
+    if (differ > 0) bench_complain("%s: results depend on the threads", f->name);
     sph_sim_free(other);
   }
   sph_sim_free(one);

@@ -98,7 +98,7 @@ static sph_sim *make(int by_tile, int more)
 static double seconds_of(sph_sim *sim)
 {
   double begin = bench_thread_seconds();
-  if (sph_sim_evaluate(sim)) fprintf(stderr, "bench: %s\n", sph_sim_error(sim));
+  if (sph_sim_evaluate(sim)) bench_complain("%s", sph_sim_error(sim));
   return bench_thread_seconds() - begin;
 }
 
