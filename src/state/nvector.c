@@ -67,12 +67,18 @@ static long chunk_end(const shared *s, int k)
   return end < s->start[k] + CHUNK ? end : s->start[k] + CHUNK;
 }
 
+/* One thread: without OpenMP, whose teams of one are a call of the system, too, in libgomp. */
+static int alone(const shared *s) { return s->threads == 1 || s->layout->entries < PARALLEL_MIN; }
+
 static void each(N_Vector v, void (*kernel)(const operands *o, long from, long to), operands o)
 {
   const shared *s = of(v)->shared;
   if (s->lost) return;
-#pragma omp parallel for num_threads(s->threads) \
-    schedule(static) if (s->layout->entries >= PARALLEL_MIN)
+  if (alone(s)) {
+    for (int k = 0; k < s->chunks; k++) kernel(&o, s->start[k], chunk_end(s, k));
+    return;
+  }
+#pragma omp parallel for num_threads(s->threads) schedule(static)
   for (int k = 0; k < s->chunks; k++) kernel(&o, s->start[k], chunk_end(s, k));
 }
 
@@ -82,8 +88,11 @@ static const shared *parts(N_Vector v, double (*kernel)(const operands *o, long 
 {
   const shared *s = of(v)->shared;
   if (s->lost) return s;
-#pragma omp parallel for num_threads(s->threads) \
-    schedule(static) if (s->layout->entries >= PARALLEL_MIN)
+  if (alone(s)) {
+    for (int k = 0; k < s->chunks; k++) s->part[k] = kernel(&o, s->start[k], chunk_end(s, k));
+    return s;
+  }
+#pragma omp parallel for num_threads(s->threads) schedule(static)
   for (int k = 0; k < s->chunks; k++) s->part[k] = kernel(&o, s->start[k], chunk_end(s, k));
   return s;
 }
