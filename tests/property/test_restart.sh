@@ -39,15 +39,17 @@ last_step() { tail -n 1 "$1/out/series.csv" 2>/dev/null | cut -d, -f2; }
 newest() { ls "$1"/out/checkpoint_*.hdf 2>/dev/null | tail -n 1; }
 step_of() { local name=${1##*_}; name=${name%.hdf}; echo $((10#$name)); }
 
+start=${EPOCHREALTIME/[.,]/}
 run 0 whole "$sphode" run "${case[@]}" && [[ -n $(newest whole) ]]
 ok $? "a run without interruption"
+length=$(((${EPOCHREALTIME/[.,]/} - start) / 1000)) # ms
 run 0 none "$sphode" run "${case[@]}" --set checkpoint.keep=0 && [[ -z $(newest none) ]] && series none
 ok $? "checkpoints change nothing"
 
 # ---- kill -9
 
-# Lives of random length until it is done; then another one, until there were enough kills.
-lost=0 killed=0 runs=0 bad=0
+# Lives of random length, up to that of a run, until it is done; then another one, until there were enough kills.
+lost=0 killed=0 runs=0 resumed=0 bad=0
 while ((killed < kills && bad == 0)); do
   dir=kill$((runs++)) over=0
   mkdir $dir
@@ -55,13 +57,15 @@ while ((killed < kills && bad == 0)); do
     cd $dir || exit 99
     if [[ -n $(cd .. && newest $dir) ]]; then
       "$sphode" restart out -q >../out 2>../err &
+      resumed=$((resumed + 1))
     else
       "$sphode" run "${case[@]}" >../out 2>../err &
     fi
     job=$!
     cd ..
     if ((killed < kills)); then
-      sleep "0.$((RANDOM % 3))$((RANDOM % 10))$((RANDOM % 10))"
+      life=$((RANDOM % length))
+      sleep "$((life / 1000)).$(printf %03d $((life % 1000)))"
       kill -9 $job 2>/dev/null && killed=$((killed + 1))
     fi
     wait $job 2>/dev/null
@@ -83,7 +87,8 @@ while ((killed < kills && bad == 0)); do
   ((bad)) || same $dir || bad=1
   ((bad)) || rm -rf $dir
 done 2>/dev/null
-echo "# $killed kills in $runs runs; at most $lost steps were made again"
+echo "# $killed kills in $runs runs, which went on $resumed times from a checkpoint; at most $lost steps were made again"
+((resumed > 0 || kills < 20)) || bad=1
 ok $bad "kill -9 at $kills random moments: all files as without"
 ((lost <= every))
 ok $? "and never more than an interval was lost"
