@@ -47,16 +47,16 @@ sph_sim *bench_flow_make(const bench_flow *s, double skin, int threads)
   return sim;
 }
 
-sph_sim *bench_flow_dam(int n, const char *delta, const char *method, double jitter, int threads)
+sph_sim *bench_flow_dam(const bench_dam_def *def)
 {
-  const double H = 0.55, dx = H / n, g = 9.81, c0 = 44.29, rho = 1000;
+  const double H = 0.55, dx = H / def->n, g = 9.81, c0 = 44.29, rho = 1000;
   const double length = dx * rint(3.22 / dx), width = dx * rint(1 / dx);
   const double front = dx * rint(2.3955 / dx), side = dx * rint(0.161 / dx);
   const double near = dx * rint((width - 0.403) / (2 * dx));
   const double lo[3] = {0}, column[3] = {1.228, width, H}, tank[3] = {length, width, 1};
   const double box[3] = {front, near, 0}, top[3] = {front + side, width - near, side};
-  sph_sim *sim =
-      sph_sim_create(&(sph_sim_def){.dim = 3, .dx = dx, .h_over_dx = 2, .threads = threads});
+  sph_sim *sim = sph_sim_create(
+      &(sph_sim_def){.dim = 3, .dx = dx, .h_over_dx = def->h_over_dx, .threads = def->threads});
   sph_group *water = sph_group_box(sim, "water", lo, column, rho);
   sph_group *wall = sph_group_create(sim, "tank", "wall");
   sph_group_add_layers(wall, lo, tank, "z+", rho);
@@ -64,12 +64,12 @@ sph_sim *bench_flow_dam(int n, const char *delta, const char *method, double jit
   sph_group_set_eos(water, sph_eos_tait(rho, c0, 7));
   sph_group_set_boundary(wall, sph_boundary_adami());
   sph_group_set_hydrostatic(water, 2, H, g);
-  if (jitter > 0) sph_group_jitter(water, jitter, 1);
+  if (def->jitter > 0) sph_group_jitter(water, def->jitter, 1);
   sph_sim_add_term(sim, sph_term_continuity());
   sph_sim_add_term(sim, sph_term_pressure());
   sph_sim_add_term(sim, sph_term_viscosity_artificial(0.001, 0));
-  sph_sim_add_term(sim, sph_term_delta(delta, 0.1));
+  sph_sim_add_term(sim, sph_term_delta(def->delta, 0.1));
   sph_sim_add_term(sim, sph_term_gravity((double[3]){0, 0, -g}));
-  sph_sim_set_integrator(sim, &(sph_integrator_def){.method = method});
+  sph_sim_set_integrator(sim, &(sph_integrator_def){.method = def->method});
   return sim;
 }

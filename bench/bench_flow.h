@@ -16,8 +16,14 @@ typedef struct bench_flow {
  * the search. */
 sph_sim *bench_flow_make(const bench_flow *flow, double skin, int threads);
 
-/* The dam break of SPHERIC's test 2, n spacings in the height of its column, jittered by that many
- * spacings. */
-sph_sim *bench_flow_dam(int n, const char *delta, const char *method, double jitter, int threads);
+/* The dam break of SPHERIC's test 2. */
+typedef struct bench_dam_def {
+  int n; /* spacings in the height of the column */
+  double h_over_dx;
+  const char *delta, *method;
+  double jitter; /* of the water at the start [dx] */
+  int threads;   /* 0: 1 */
+} bench_dam_def;
+sph_sim *bench_flow_dam(const bench_dam_def *def);
 
 #endif

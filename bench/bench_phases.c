@@ -190,8 +190,8 @@ void bench_phases(void)
   if (bench_wanted("phases/3d/molteni")) measure_phases("3d/molteni", flow("molteni", across));
   if (bench_wanted("phases/3d/antuono")) measure_phases("3d/antuono", flow("antuono", across));
   if (bench_wanted("phases/dam/3d"))
-    measure_phases("dam/3d",
-                   bench_flow_dam(bench_quick() ? 10 : 29, "antuono", "leapfrog", 0.1, 1));
+    measure_phases("dam/3d", bench_flow_dam(&(bench_dam_def){bench_quick() ? 10 : 29, 2, "antuono",
+                                                             "leapfrog", 0.1, 1}));
   if (!bench_wanted("vectors")) return;
   sph_sim *sim = flow("molteni", bench_quick() ? 20 : 100);
   if (!sph_sim_evaluate(sim)) measure_vectors(sim);

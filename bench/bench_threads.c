@@ -31,7 +31,8 @@ typedef struct flow {
 
 static sph_sim *make(const flow *f, int threads)
 {
-  if (!f->rhs) return bench_flow_dam(bench_quick() ? 10 : 29, "antuono", "leapfrog", 0.1, threads);
+  const bench_dam_def dam = {bench_quick() ? 10 : 29, 2, "antuono", "leapfrog", 0.1, threads};
+  if (!f->rhs) return bench_flow_dam(&dam);
   sph_sim *sim = bench_flow_make(f->rhs, -1, threads);
   sph_sim_set_integrator(sim, &(sph_integrator_def){.method = "leapfrog"});
   return sim;
