@@ -1,7 +1,6 @@
 /* Phase neighbors: the lists hold every pair closer than H + skin at their build; no particle may
  * have moved by more than skin/2 since. */
 #include <math.h>
-#include <string.h>
 
 #include "keep.h"
 #include "neighbors_sort.h"
@@ -38,11 +37,17 @@ static int current(const sph_evaluation *e)
   return 1;
 }
 
+/* By the threads that compare them (moved2): memory is near whoever writes it first. */
 static void take_down(const sph_evaluation *e, int g)
 {
   const sph_sim *sim = e->sim;
-  for (int d = 0; e->view[g].n > 0 && d < sim->dim; d++) /* a mirror has none */
-    memcpy(sim->sorted[g].built[d], e->view[g].x[d], (size_t)e->view[g].n * sizeof(double));
+  const long n = e->view[g].n;
+  for (int d = 0; n > 0 && d < sim->dim; d++) { /* a mirror has none */
+    const double *x = e->view[g].x[d];
+    double *built = sim->sorted[g].built[d];
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
+    for (long i = 0; i < n; i++) built[i] = x[i];
+  }
 }
 
 /* Records are made behind the lists: until then their memory holds sorted positions. */

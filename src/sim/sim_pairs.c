@@ -161,8 +161,12 @@ void sph_sim_pairs_pack_positions(const sph_evaluation *e, int g)
 
 void sph_sim_pairs_clear(sph_sim *sim, int g, int sums)
 {
-  for (int s = 0; s < sums; s++)
-    memset(sim->sorted[g].sum[s], 0, (size_t)sim->sorted[g].room * sizeof(double));
+  const long room = sim->sorted[g].room;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (room > PARALLEL_MIN)
+  for (long i = 0; i < room; i += PACKED)
+    for (int s = 0; s < sums; s++)
+      memset(sim->sorted[g].sum[s] + i, 0,
+             (size_t)(room - i < PACKED ? room - i : PACKED) * sizeof(double));
 }
 
 void sph_sim_pairs_loop(sph_sim *sim, sph_pair_function *loop, int target, int source,
