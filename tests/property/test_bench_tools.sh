@@ -5,7 +5,7 @@ compare=$SRCDIR/bench/compare
 
 # ---- bench/compare
 
-machine='{"sphode": "1.0", "cpu": "C", "isa": "I", "threads": 1, "compiler": "gcc 12", "flags": "-O3"}'
+machine='{"sphode": "1.0", "cpu": "C", "isa": "I", "sizes": "full", "compiler": "gcc 12", "flags": "-O3"}'
 figure() { # NAME VALUE SPREAD [RATIO]
   printf '{"name": "%s", "value": %s, "unit": "M/s", "spread": %s, "ratio": %s, "baseline": %s}\n' "$1" "$2" "$3" \
     "${4:-null}" "$([[ $# == 4 ]] && echo '"base"' || echo null)"
@@ -36,6 +36,9 @@ ok $? "the same without blanks"
 sed 's/M\/s/s/' old >units
 run 0 "$compare" old units && says rate "10  *10 s  *in M/s before.*"
 ok $? "figures in other units are not divided"
+
+run 0 "$compare" old old && grep -qx "new: C, I; full sizes; gcc 12 -O3" out && [[ $(grep -c " 1.000$" out) == 6 ]]
+ok $? "a file and itself"
 
 refused() { # NAME PATTERN FILE: as the old one and as the new one, and nothing is compared
   run 2 "$compare" "$3" old && grep -q "^compare: $3$2" err && [[ ! -s out ]] &&
