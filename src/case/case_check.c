@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "case_curve.h"
 #include "case_event.h"
 #include "case_material.h"
 #include "case_schema.h"
@@ -413,6 +414,27 @@ static int check_forms(sph_case *c)
                               summation ? "" : row);
 }
 
+/* Fields know distances of points; one number is compared with what one number says of a run. */
+static int check_norm(const sph_case *c, const sph_case_node *one)
+{
+  const sph_case_node *norm = sph_case_reader_find(one, "norm");
+  const sph_case_node *kind = sph_case_reader_find(one, "reference")->first;
+  const char *name = norm->text;
+  const int of_points = !strcmp(name, "rms") || !strcmp(name, "l1") || !strcmp(name, "max");
+  const int value = !strcmp(kind->key, "value");
+  const int in_space = sph_case_solution_find(kind->key) || !strcmp(kind->key, "section");
+  if (in_space && !of_points)
+    return FAIL(norm, 0, "norm: solutions in space and sections know rms, l1, max");
+  if (!value && sph_case_curve_of_one(name))
+    return FAIL(norm, 0, "norm: drift, period, decay go with reference: value");
+  if (value && of_points)
+    return FAIL(kind, 0,
+                "reference: value with norm %s, which compares the points of a curve; right is "
+                "norm: mean, arrival, drift, period or decay",
+                name);
+  return SPH_OK;
+}
+
 static int check_comparisons(sph_case *c)
 {
   const sph_case_node *list = sph_case_reader_find(c->root, "compare");
@@ -420,6 +442,7 @@ static int check_comparisons(sph_case *c)
     const sph_case_node *group = sph_case_reader_find(one, "group");
     const sph_case_node *map =
         group ? sph_case_reader_find(sph_case_reader_find(c->root, "groups"), group->text) : NULL;
+    if (check_norm(c, one)) return c->error->status;
     if (!group) continue;
     if (!sph_case_solution_find(sph_case_reader_find(one, "reference")->first->key))
       return FAIL_KEY(group, "group: belongs to solutions in space");

@@ -113,9 +113,6 @@ static sph_case_distance wanted(const sph_case_node *node)
 static int compare_series(const comparer *a, sph_case_distance *d)
 {
   table run = {0}, reference = {0};
-  if (sph_case_curve_of_one(d->norm) && strcmp(a->kind->key, "value") != 0)
-    return fail(a, child_of(a->node, "norm"),
-                "norm: drift, period, decay go with reference: value");
   d->one = a->kind->number;
   int status = read_run(a, &run);
   if (!status) status = read_reference(a, &run, &reference);
@@ -163,9 +160,24 @@ static int measure(const comparer *a, sph_case_distance *d, char note[SPH_CASE_N
   return status ? status : divide(a, d);
 }
 
+/* Why there is no distance; NULL: there is one, or points of the reference behind the run. */
+static const char *nothing_of(const sph_case_distance *d)
+{
+  if (d->used) return NULL;
+  if (!strcmp(d->norm, "arrival"))
+    return isfinite(d->largest) ? "the run does not pass the threshold in the window"
+                                : "the reference does not pass the threshold in the window";
+  if (!strcmp(d->norm, "mean")) return "the run does not cover the window";
+  if (sph_case_curve_of_one(d->norm)) return "the run has too few points or swings in the window";
+  return d->wanted ? NULL : "no point of the reference is in the window and below up_to";
+}
+
 static void note_of(const sph_case_distance *d, char note[SPH_CASE_NOTE])
 {
-  if (d->used < d->wanted)
+  const char *nothing = nothing_of(d);
+  if (nothing)
+    snprintf(note, SPH_CASE_NOTE, "%s", nothing);
+  else if (d->used < d->wanted)
     snprintf(note, SPH_CASE_NOTE, "the run covers %ld of %ld points of the reference", d->used,
              d->wanted);
   else if (d->offset > 0)

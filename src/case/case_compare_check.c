@@ -100,19 +100,6 @@ static int check_series(const comparer *a)
   return fail(a, quantity, what);
 }
 
-/* As the comparisons themselves say it behind the run. */
-static int check_norm(const comparer *a, int in_space)
-{
-  const sph_case_node *norm = child_of(a->node, "norm");
-  const int of_points =
-      !strcmp(norm->text, "rms") || !strcmp(norm->text, "l1") || !strcmp(norm->text, "max");
-  if (in_space && !of_points)
-    return fail(a, norm, "norm: solutions in space and sections know rms, l1, max");
-  if (!in_space && sph_case_curve_of_one(norm->text) && strcmp(a->kind->key, "value") != 0)
-    return fail(a, norm, "norm: drift, period, decay go with reference: value");
-  return SPH_OK;
-}
-
 static int has_snapshots_of_events(const sph_case *c)
 {
   const sph_case_node *events = child_of(c->root, "events");
@@ -181,7 +168,6 @@ int sph_case_compare_check(const sph_case *c, sph_sim *sim, const char *director
     const int in_space = sph_case_profile_known(&a) || sph_case_section_known(&a);
     status = check_table(&a);
     if (!status) status = in_space ? check_field(&a) : check_series(&a);
-    if (!status) status = check_norm(&a, in_space);
     if (!status) status = check_times(&a);
     if (!status) status = check_window(&a);
     if (!status && sph_case_profile_known(&a)) status = sph_case_profile_check(&a);

@@ -414,8 +414,6 @@ int sph_case_profile_compare(const comparer *a, sph_case_distance *d, char note[
   profile p[TIMES] = {{0}};
   int first = 0;
   note[0] = 0;
-  if (strcmp(d->norm, "rms") != 0 && strcmp(d->norm, "l1") != 0 && strcmp(d->norm, "max") != 0)
-    return fail(a, child_of(a->node, "norm"), "norm: solutions in space know rms, l1, max");
   if (!a->sim) return fail(a, a->node, "a solution in space is compared with a simulation");
   if (!next_fluid(a, &first)) return fail(a, a->node, "there is no fluid");
   int n = times_of(a, times);

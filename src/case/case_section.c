@@ -218,9 +218,6 @@ int sph_case_section_compare(const comparer *a, sph_case_distance *d, char note[
 {
   section s = {0};
   note[0] = 0;
-  if (strcmp(d->norm, "rms") != 0 && strcmp(d->norm, "l1") != 0 && strcmp(d->norm, "max") != 0)
-    return sph_case_schema_fail(a->c, a->error, child_of(a->node, "norm"), 0, 0,
-                                "norm: a section knows rms, l1, max");
   int status = measure(a, d, &s, note);
   section_free(&s);
   return status;

@@ -7,8 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "case_path.h"
 #include "case_solution.h"
 #include "case_warning.h"
+#include "csv.h"
+#include "memory.h"
 #include "sphode/case.h"
 
 #define child_of sph_case_reader_find
@@ -99,6 +102,43 @@ static void look_at_integrator(finder *f, const sph_case_node *map)
   without(f, map, "dt_min", !fixed, "steps that change: dt_fixed is given");
 }
 
+static int of_points(const char *norm)
+{
+  return !strcmp(norm, "rms") || !strcmp(norm, "l1") || !strcmp(norm, "max");
+}
+
+/* Points of a table that count, but are behind the end of the run: with them nothing passes. */
+static void look_at_table(finder *f, const sph_case_node *one, double end)
+{
+  const sph_case_node *kind = child_of(one, "reference")->first;
+  char path[SPH_CASE_PATH], title[128];
+  double *x = NULL, *y = NULL, window[3] = {-INFINITY, INFINITY};
+  const double up_to = get_number(one, "up_to", INFINITY);
+  long nx = 0, ny = 0, wanted = 0, used = 0;
+  sph_error e = {0};
+  if (strcmp(kind->key, "csv") != 0 || !of_points(get_text(one, "norm", "")) ||
+      sph_case_path(f->c, get_text(kind, "file", ""), path, &e) ||
+      sph_csv_read(path, get_text(kind, "x", NULL), 0, &x, &nx, title, &e))
+    return;
+  if (child_of(one, "window")) sph_case_reader_vector(one, "window", window);
+  if (!sph_csv_read(path, get_text(kind, "y", NULL), 1, &y, &ny, title, &e))
+    for (long k = 0; k < nx && k < ny; k++) {
+      if (!(x[k] >= window[0] && x[k] <= window[1] && y[k] <= up_to)) continue;
+      wanted++;
+      used += x[k] <= end * (1 + 1e-9);
+    }
+  if (wanted == 0 && ny > 0)
+    warn(f, child_of(one, "reference"), "none of its %ld points is in the window and below up_to",
+         nx);
+  else if (used < wanted && (used == 0 || child_of(one, "bar")))
+    warn(f, child_of(one, "reference"),
+         "%ld of its %ld points that count are behind the end of the run, %g in their time: the "
+         "comparison does not pass",
+         wanted - used, wanted, end);
+  sph_memory_free(x);
+  sph_memory_free(y);
+}
+
 static void look_at_comparisons(finder *f, const sph_case_node *list, double end)
 {
   for (const sph_case_node *one = list ? list->first : NULL; one; one = one->next) {
@@ -110,6 +150,8 @@ static void look_at_comparisons(finder *f, const sph_case_node *list, double end
         sph_case_reader_vector(one, "window", window) && window[0] * scale > end)
       warn(f, child_of(one, "window"), "it begins at %g s, behind the end of the run, %g s",
            window[0] * scale, end);
+    else
+      look_at_table(f, one, end / scale);
   }
 }
 

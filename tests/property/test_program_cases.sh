@@ -44,7 +44,7 @@ printf 'time,front\n0,0.6\n0.1,0.7\n' >front.csv
 fails "a probe of a field that is none" "probe a: water has no field .presure.; did you mean 'pressure'" "output.probes={a: {at: [0, 0], fields: presure}}"
 fails "a probe elsewhere" "probe a: its places lie" "output.probes={a: {at: [100, 0]}}"
 fails "a monitor of no fluid" "monitor a: no fluid group" "output.monitors={a: {type: height, group: nobody}}"
-fails "a comparison of no column" "'frnt' is no column of series.csv" "compare=[{name: a, quantity: frnt, reference: {value: 1}}]"
+fails "a comparison of no column" "'frnt' is no column of series.csv" "compare=[{name: a, quantity: frnt, norm: mean, reference: {value: 1}}]"
 fails "a comparison without its table" "cannot read no.csv" "compare=[{name: a, quantity: front, reference: {csv: {file: no.csv}}}]"
 fails "a comparison of no field" "water has no field 'velocty'; did you mean 'velocity'" \
   "compare=[{name: a, quantity: velocty, reference: {column: {surface: 1, gravity: 1}}}]"
@@ -52,6 +52,7 @@ column="reference: {column: {surface: H, gravity: g}}"
 fails "a quantity that a solution has not" "quantity: found 'velocity'; a column at rest has pressure, density" "compare=[{name: a, quantity: velocity, $column}]"
 fails "a norm that a solution does not know" "norm: solutions in space and sections know rms, l1, max" "compare=[{name: a, quantity: pressure, norm: decay, $column}]"
 fails "a norm of one number, of a table" "norm: drift, period, decay go with reference: value" "compare=[{name: a, quantity: front, norm: period, reference: {csv: {file: front.csv}}}]"
+fails "a norm of points, of one number" "reference: value with norm rms, which compares the points of a curve; right is norm: mean, arrival" "compare=[{name: a, quantity: front, reference: {value: 0.1}}]"
 fails "a time behind the end" "at: 3 s is behind the end of the run, 1 s" "compare=[{name: a, quantity: pressure, at: [0.5 s, 3 s], $column}]"
 fails "a time without a snapshot" "at: there will be no snapshot at t = 0.33 s; output: snapshots makes one each 0.05 s" "compare=[{name: a, quantity: pressure, at: [0.33 s], $column}]"
 fails "times of a table" "at: belongs to solutions in space" "compare=[{name: a, quantity: front, at: [0.5 s], reference: {csv: {file: front.csv}}}]"
@@ -65,6 +66,14 @@ run 0 "$sphode" check tank2.yml --set "compare=[{name: a, quantity: front, refer
 ok $? "one that is right"
 run 1 "$sphode" check tank2.yml --set "compare=[{name: a, quantity: front, reference: {csv: {file: front.csv, y: back}}}]" && grep -q "back" err
 ok $? "a table without its column"
+
+good=0
+for f in "window: [5, 6], time_scale: 0.01s, reference: {csv: {file: front.csv}}=no point of the reference is in the window and below up_to" \
+  "norm: arrival, threshold: 9, reference: {value: 1}=the run does not pass the threshold in the window"; do
+  run 3 "$sphode" run tank2.yml --set run.end=0.1s --set output.snapshots=0.1s --set "compare=[{name: a, quantity: front, bar: 1, ${f%=*}}]" -f -o short && grep -q "FAIL  ${f##*=}" out ||
+    { good=1; sed 's/^/# /' out err; }
+done
+ok $good "a comparison that gives no number says why"
 
 fails "a picture of no field" "field: snapshots will have no 'velocit'; did you mean 'velocity'? they have: position, velocity, density" plot.field=velocit
 fails "snapshots too many for a step" "snapshots: 1e-12 s is too short for steps of 0.00[0-9]* s; right is at least" output.snapshots=1e-12
@@ -105,7 +114,9 @@ warns "repulsion: does nothing without model: adami" "groups.tank.boundary={mode
 warns "packing: does nothing without a shape that is filled" groups.tank.packing=
 warns "lattice: does nothing without a shape that is filled" groups.tank.lattice=hexagonal
 warns "window: it begins at 4 s, behind the end of the run, 1 s" "compare=[{name: a, quantity: front, time_scale: 2 s, window: [2, 3], reference: {csv: {file: front.csv}}}]"
-warns "threshold: does nothing without norm: arrival" "compare=[{name: a, quantity: front, threshold: 1, reference: {value: 1}}]"
+warns "reference: 1 of its 2 points that count are behind the end of the run, 0.05 in their time" run.end=0.05s output.snapshots=0.05s "compare=[{name: a, quantity: front, bar: 1, reference: {csv: {file: front.csv}}}]"
+warns "reference: none of its 2 points is in the window and below up_to" "compare=[{name: a, quantity: front, window: [5, 6], time_scale: 0.1s, reference: {csv: {file: front.csv}}}]"
+warns "threshold: does nothing without norm: arrival" "compare=[{name: a, quantity: front, norm: mean, threshold: 1, reference: {value: 1}}]"
 ok $good "keys that do nothing without their partner"
 good=0
 warns "time: event a never happens: the run ends at t = 1 s" "events={a: {when: {time: 2 s}}}"
