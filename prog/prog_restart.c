@@ -54,6 +54,14 @@ static void compare_versions(const prog_job *j, const sph_checkpoint_info *info)
                  info->version, info->sundials, info->isa);
 }
 
+/* Of tables and snapshots that are gone; the run goes on without. */
+static void tell_lost(char *told)
+{
+  char *rest = NULL;
+  for (char *line = strtok_r(told, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest))
+    sph_prog_error(PROG_OK, "warning: %s", line);
+}
+
 /* A run that just goes on is still the one of its first command line. */
 static void set_command(prog_job *j, const sph_checkpoint_info *info)
 {
@@ -72,6 +80,7 @@ static int go_on_from(prog_job *j, const char *path)
 {
   sph_checkpoint_info info;
   sph_error error = {0};
+  char told[2000] = "";
   if (sph_checkpoint_info_read(path, &info, &error)) {
     sph_prog_error(PROG_FAILED, "%s", error.text);
     return -1;
@@ -89,13 +98,14 @@ static int go_on_from(prog_job *j, const char *path)
   if (!status) set_command(j, &info);
   if (!status) status = sph_prog_run_build(j);
   if (!status) status = sph_prog_run_outputs(j);
-  if (!status && sph_checkpoint_read(j->sim, path)) {
+  if (!status && sph_checkpoint_read_told(j->sim, path, told, sizeof told)) {
     sph_prog_error(PROG_FAILED, "%s", sph_sim_error(j->sim));
     forget(j);
     status = -1;
   }
   if (!status && j->o->sets > 0) sph_sim_changed(j->sim);
   if (!status) compare_versions(j, &info);
+  if (!status) tell_lost(told);
   if (!status) unlinkat(j->held, "summary.json", 0); /* it goes on */
   if (!status && !j->o->quiet)
     fprintf(stderr, "going on from %s: t = %.6g s, step %ld\n", path, info.time, info.step);

@@ -52,9 +52,13 @@ SPH_API int sph_checkpoint_write(struct sph_sim *sim);
 SPH_API long sph_checkpoint_size(struct sph_sim *sim);
 
 /* The simulation goes on from that file.  A status: SPH_ERR_FILE where the file is damaged, of
- * another version, of another simulation, or where an output does not have what it had then; the
- * simulation is then of no use any more. */
+ * another version, of another simulation, or where a table of an output has other columns; the
+ * simulation is then of no use any more.  A table that is gone, or shorter than it was, is no
+ * failure: it begins anew, or goes on behind the last frame that is whole. */
 SPH_API int sph_checkpoint_read(struct sph_sim *sim, const char *path);
+/* The same; told[size]: what is not as it was then, as such a table, a line each; "": all is. */
+SPH_API int sph_checkpoint_read_told(struct sph_sim *sim, const char *path, char *told,
+                                     size_t size);
 
 /* What a file says of itself. */
 typedef struct sph_checkpoint_info {

@@ -1,5 +1,6 @@
 #include "keep.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -59,6 +60,18 @@ void sph_keep_leave(sph_keep *keep)
   if (used) keep->path[used - 1] = '\0';
   char *slash = strrchr(keep->path, '/');
   *(slash ? slash + 1 : keep->path) = '\0';
+}
+
+void sph_keep_tell(sph_keep *keep, const char *format, ...)
+{
+  va_list arguments;
+  const size_t used = keep->told ? strlen(keep->told) : 0;
+  if (used + 2 >= keep->told_size) return;
+  if (used) memcpy(keep->told + used, "\n", 2);
+  char *to = keep->told + strlen(keep->told);
+  va_start(arguments, format);
+  vsnprintf(to, keep->told_size - (size_t)(to - keep->told), format, arguments);
+  va_end(arguments);
 }
 
 int sph_keep_match(sph_keep *keep, const char *name, long value)

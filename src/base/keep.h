@@ -17,6 +17,8 @@ struct sph_keep {
   int (*has)(sph_keep *keep, const char *path);
   void *ctx; /* theirs */
   sph_error *error;
+  char *told; /* [told_size], what a reader should know, lines; NULL: nobody asks */
+  size_t told_size;
 };
 
 /* Items between them belong to a group of that name. */
@@ -26,6 +28,8 @@ void sph_keep_leave(sph_keep *keep);
 int sph_keep_match(sph_keep *keep, const char *name, long value);
 /* Writes a word of at most 63 letters, or reads it: is it this one? */
 int sph_keep_word(sph_keep *keep, const char *name, const char *word);
+/* When reading: a line of what went on differently than it was, as a table that is gone. */
+void sph_keep_tell(sph_keep *keep, const char *format, ...) SPH_PRINTF(2, 3);
 int sph_keep_int(sph_keep *keep, const char *name, int *value);
 
 #endif

@@ -28,13 +28,25 @@ static int has_item(sph_keep *keep, const char *name)
 
 int sph_checkpoint_read(sph_sim *sim, const char *path)
 {
+  return sph_checkpoint_read_told(sim, path, NULL, 0);
+}
+
+int sph_checkpoint_read_told(sph_sim *sim, const char *path, char *told, size_t size)
+{
   sph_error own = {0}, walk = {0};
   sph_h5 h5;
+  if (told && size) told[0] = '\0';
   int status = sph_sim_evaluate(sim);
   if (status) return status;
   hid_t file = sph_checkpoint_file_open(path, &h5, &own);
   hid_t state = file >= 0 ? H5Gopen2(file, "State", H5P_DEFAULT) : -1;
-  sph_keep keep = {.reading = 1, .item = read_item, .has = has_item, .ctx = &state, .error = &walk};
+  sph_keep keep = {.reading = 1,
+                   .item = read_item,
+                   .has = has_item,
+                   .ctx = &state,
+                   .error = &walk,
+                   .told = size ? told : NULL,
+                   .told_size = size};
   if (!own.status) sph_sim_keep(sim, &keep);
   if (walk.status) sph_error_set(&own, walk.status, "checkpoint %s: %s", path, walk.text);
   if (state >= 0) H5Gclose(state);

@@ -139,17 +139,32 @@ static void remove_from(const context *c, int part, long first)
   }
 }
 
-static int go_on(context *c, const sph_sim *sim, sph_error *error)
+static int is_there(const context *c, int part, long k)
+{
+  char name[40], path[SPH_PATH];
+  file_name(name, part, k);
+  return !sph_file_path(path, c->directory, name, NULL) && access(path, F_OK) == 0;
+}
+
+static int go_on(context *c, const sph_sim *sim, sph_keep *keep, sph_error *error)
 {
   int status = SPH_OK;
+  long gone = 0;
   for (int part = 0; !status && part < SPH_PARTS; part++) {
     sph_file_remove_stale(c->directory, base[part]);
     sph_text_free(&c->index[part]);
     if (part == SPH_WALLS && !has_walls(sim)) continue;
-    for (long k = 0; k < c->frames; k++) add_entry(c, part, k, c->time[k]);
+    for (long k = 0; k < c->frames; k++)
+      if (is_there(c, part, k))
+        add_entry(c, part, k, c->time[k]);
+      else
+        gone += part == SPH_FLUIDS;
     remove_from(c, part, c->frames);
     if (c->frames) status = write_index(c, part, error);
   }
+  if (gone)
+    sph_keep_tell(keep, "%ld of %ld snapshots of %s are gone: %s.series names the others", gone,
+                  c->frames, c->directory ? c->directory : ".", base[SPH_FLUIDS]);
   return status;
 }
 
@@ -168,7 +183,7 @@ static int keep_hdf5(void *ctx, sph_sim *sim, sph_keep *keep, sph_error *error)
     if (!c->time) return SPH_ERR_MEMORY;
   }
   if (!status) status = sph_keep_real(keep, "times", c->frames, c->time);
-  return status || !sph_keep_reading(keep) ? status : go_on(c, sim, error);
+  return status || !sph_keep_reading(keep) ? status : go_on(c, sim, keep, error);
 }
 
 static void free_hdf5(void *ctx)

@@ -120,7 +120,6 @@ static int resolve(context *c, const sph_sim *sim, sph_error *error)
   if (!status && !found)
     status = sph_error_set(error, SPH_ERR_ARGUMENT, "probe %s: no fluid group \"%s\"", c->name,
                            c->group ? c->group : "");
-  if (!status) status = check_places(c, sim, error);
   char *list = status ? NULL : sph_memory_string(c->fields, error), *rest = NULL;
   c->columns = 0;
   if (!status && !list) status = SPH_ERR_MEMORY;
@@ -308,6 +307,7 @@ static int open_probe(void *ctx, sph_sim *sim, sph_error *error)
   char name[80];
   if (!c) return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: a probe");
   int status = resolve(c, sim, error);
+  if (!status) status = check_places(c, sim, error); /* at the start alone: particles may leave */
   if (status) return status;
   file_name(c, name);
   status = sph_rows_open(&c->rows, c->directory, name, error);
@@ -324,6 +324,7 @@ static int keep_probe(void *ctx, sph_sim *sim, sph_keep *keep, sph_error *error)
   if (!c) return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: a probe");
   int status = resolve(c, sim, error);
   if (status) return status;
+  c->rows.framed = c->n > 1;
   header(c, sim, &columns);
   file_name(c, name);
   status = sph_error_set(error, columns.error.status, "%s", columns.error.text);

@@ -7,7 +7,8 @@
 
 typedef struct sph_rows {
   char path[SPH_PATH];
-  int fd; /* -1: closed */
+  int fd;     /* -1: closed */
+  int framed; /* frames end with an empty line */
 } sph_rows;
 
 /* A new file directory/name, empty; the directory is made. */
@@ -15,7 +16,8 @@ int sph_rows_open(sph_rows *rows, const char *directory, const char *name, sph_e
 /* One write; what does not fit on the disk is taken back.  Frees the row. */
 int sph_rows_append(sph_rows *rows, sph_text *row, sph_error *error);
 /* For a checkpoint: what is in the file is on disk.  When one is read: opens the file, which begins
- * with `header`, and cuts off the rows that came after the checkpoint. */
+ * with `header`, and cuts off the rows that came after the checkpoint.  One that is gone or shorter
+ * begins anew, or goes on behind its last whole frame, told. */
 int sph_rows_keep(sph_rows *rows, const char *directory, const char *name, const char *header,
                   sph_keep *keep);
 /* Synchronises and closes it, if it is open. */

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# sphode restart where not all is as it was: particles that left a probe, tables that were lost, --set of what a restart can and
+# cannot change, ends that are passed, signals that come twice.
+source "$SRCDIR/tests/tap.sh"
+cat >block.yml <<'END'
+dimension: 2
+parameters: {H: 0.3 m, alpha: 0.1, length: H}
+spacing: 3 cm
+groups:
+  water:
+    kind: fluid
+    density: 1000 kg/m^3
+    viscosity: 0.01 Pa s
+    eos: {linear: {sound_speed: 50 m/s}}
+    initial: {velocity: [5 m/s, 0 m/s]}
+    shapes: [box: {lower: [0, 0], upper: [length, H]}]
+terms:
+  continuity:
+  pressure:
+  viscosity-artificial: {alpha: alpha}
+run: {end: 0.3 s}
+output:
+  snapshots: 0.1 s
+  series: 10 ms
+  probes:
+    p: {at: [0.1 m, 0.1 m]}
+    column: {line: {from: [0.1 m, 0], to: [0.1 m, 0.3 m], n: 3}}
+checkpoint: {steps: 100}
+END
+newest() { ls "$1"/checkpoint_*.hdf | tail -n 1; }
+
+# ---- probes
+
+run 0 "$sphode" run block.yml -q -o whole && grep -q "^0.3,0.1,0.1,0,nan" whole/probe_p.csv && [[ -n $(newest whole) ]]
+ok $? "particles leave the places of a probe: the run goes on, behind checkpoints"
+run 0 "$sphode" run block.yml -q -o first --set run.end=0.2s && run 0 "$sphode" restart first -q --until 0.3s &&
+  cmp <(head -n 20 first/probe_p.csv) <(head -n 20 whole/probe_p.csv) && grep -q "^0.3,0.1,0.1,0,nan" first/probe_p.csv
+ok $? "and is gone on with"
+run 1 "$sphode" run block.yml -q -o far --set "output.probes.p.at=[9 m, 0.1 m]" && grep -q "probe p: its places lie between x = 9 and 9 m" err
+ok $? "a place far outside is refused at the start"
+
+# ---- tables that were lost
+
+lost() { # NAME, what is told, command in the results
+  rm -rf hurt
+  cp -r first hurt
+  (cd hurt && eval "$3")
+  run 0 "$sphode" restart hurt -q --until 0.3s && grep -q "warning: $2" err
+  ok $? "$1"
+}
+rm -rf first
+run 0 "$sphode" run block.yml -q -o first --set run.end=0.2s
+lost "a table that is gone begins anew" "hurt/series.csv is gone or empty: it begins anew" "rm series.csv" &&
+  [[ $(head -n 1 hurt/series.csv) == "$(head -n 1 whole/series.csv)" && $(sed -n 2p hurt/series.csv) == 0.21,* && $(tail -n 1 hurt/series.csv) == 0.3,* ]]
+ok $? "with its header, up to the end"
+lost "one that is cut short goes on" "hurt/series.csv has [0-9]* bytes, had [0-9]* then: rows are missing, it goes on from there" \
+  'truncate -s -100 series.csv'
+[[ $(awk -F, '{print NF}' hurt/series.csv | sort -u | wc -l) == 1 && $(wc -l <hurt/series.csv) -ge 29 ]]
+ok $? "behind its last whole row"
+lost "of a line of probes" "hurt/probe_column.csv has" 'truncate -s -100 probe_column.csv' &&
+  [[ $(awk -v RS= '{print NF}' hurt/probe_column.csv | tail -n +2 | sort -u | wc -l) == 1 ]]
+ok $? "behind its last whole frame"
+lost "snapshots that are gone" "1 of [0-9]* snapshots of hurt are gone" 'rm snapshot_0001.hdf'
+! grep -q snapshot_0001 hurt/snapshot.hdf.series && grep -q snapshot_0002 hurt/snapshot.hdf.series
+ok $? "are not listed any more"
+mkdir bare && cp "$(newest first)" bare
+run 0 "$sphode" restart bare -q --until 0.3s && cmp <(tail -n 5 bare/series.csv) <(tail -n 5 hurt/series.csv)
+ok $? "a checkpoint alone, elsewhere, is enough"
+
+echo 1..$count
