@@ -126,6 +126,11 @@ typedef struct sph_sim_stats {
   long list_builds;
   long near;    /* particles nearer than 0.1 dx to another, when pairs were counted last */
   double bytes; /* memory held */
+  double mach;  /* of liquids (an equation of state with c0, not thermal): the largest |v|/c0 at */
+  double density;    /* steps so far, and the largest |rho/rho0 - 1| */
+  long strayed;      /* of their particles, those now outside of where all particles were at the */
+  double strayed_by; /* start by more than that is long, and how far the farthest [m]; counted where
+                        there are walls, none of which moves or is a mirror */
 } sph_sim_stats;
 SPH_API void sph_sim_get_stats(const sph_sim *sim, sph_sim_stats *stats);
 /* sph_bound_name, but dt_fixed where the integrator has one. */

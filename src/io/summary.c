@@ -134,6 +134,10 @@ static void json_what(sph_text *t, const facts *f)
   real(t, "pairs", f->stats.pairs);
   real(t, "pairs_per_second", pairs_per_second(f));
   real(t, "memory_bytes", f->stats.bytes);
+  real(t, "mach_largest", f->stats.mach);
+  real(t, "density_deviation_largest", f->stats.density);
+  real(t, "strayed_particles", (double)f->stats.strayed);
+  real(t, "strayed_by_m", f->stats.strayed_by);
 }
 
 static void json_events(sph_text *t, const facts *f)
@@ -235,6 +239,33 @@ static void text_steps(sph_text *t, const sph_sim *sim, const sph_step_stats *s)
   sph_text_add(t, "\n");
 }
 
+/* A liquid whose Mach number is above this is no longer nearly incompressible. */
+static const double FAST = 0.3;
+
+/* Did liquids stay what they are meant to be: slow, dense, inside? */
+static void text_extremes(sph_text *t, const sph_sim_stats *s)
+{
+  if (s->mach == 0 && s->density == 0) return; /* none */
+  line(t, "liquids");
+  sph_text_add(t, "Mach number up to %.2g, density up to %.2g %% off the reference\n", s->mach,
+               100 * s->density);
+  if (s->mach > FAST) {
+    line(t, "warning");
+    sph_text_add(t,
+                 "a liquid was faster than %g of its sound speed, as one should never be: "
+                 "something drives it wildly, or the sound speed is too small\n",
+                 FAST);
+  }
+  if (s->strayed > 0) {
+    line(t, "warning");
+    sph_text_add(
+        t,
+        "%ld particles are far outside of where everything was at the start, up to %.3g m: "
+        "no wall held them\n",
+        s->strayed, s->strayed_by);
+  }
+}
+
 static void text_events(sph_text *t, const facts *f)
 {
   sph_event_info event;
@@ -326,6 +357,7 @@ static void text_who(sph_text *t, const facts *f)
 static void text_all(sph_text *t, const facts *f)
 {
   text_run(t, f);
+  text_extremes(t, &f->stats);
   text_events(t, f);
   text_balance(t, f);
   text_who(t, f);

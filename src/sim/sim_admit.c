@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "count_pair.h"
+#include "sim_extremes.h"
 #include "sim_failure.h"
 #include "sim_rhs.h"
 
@@ -75,6 +76,7 @@ typedef struct extremes {
   double v2, a2, speed; /* max v^2, max a^2, max of c signal + |v| */
   double alpha;         /* of the artificial viscosities: the largest that acts */
   double lightest;      /* min rho */
+  double heaviest;      /* max rho */
   long bad;             /* particles with a rate that is not finite, */
   long first;           /* the first of them */
 } extremes;
@@ -121,13 +123,14 @@ static extremes look(const sph_evaluation *e, const sph_group *group, const sph_
   const sph_sim *sim = e->sim;
   const int motion = e->part->motion;
   const double *alpha = varied(e, view), all = damping(sim, e->part->limit_terms);
-  double v2_max = 0, a2_max = 0, speed_max = 0, lightest = INFINITY, alpha_max = alpha ? 0 : all;
+  double v2_max = 0, a2_max = 0, speed_max = 0, heaviest = 0, lightest = INFINITY,
+         alpha_max = alpha ? 0 : all;
   const double sound_all = signal_of(sim, e->part, all);
   double least = e->part->limit_terms & SPH_SHIFTS ? shifting(sim, group) : 0;
   long bad = 0, first = LONG_MAX, n = view->n;
 #pragma omp parallel for num_threads(sim->threads) schedule(static)                                \
-    reduction(max : v2_max, a2_max, speed_max, alpha_max) reduction(min : lightest, first) \
-    reduction(+ : bad) if (n > PARALLEL_MIN)
+    reduction(max : v2_max, a2_max, speed_max, alpha_max, heaviest) \
+    reduction(min : lightest, first) reduction(+ : bad) if (n > PARALLEL_MIN)
   for (long i = 0; i < n; i++) {
     double v2 = 0, a2 = 0;
     for (int d = 0; d < sim->dim; d++) {
@@ -142,11 +145,12 @@ static extremes look(const sph_evaluation *e, const sph_group *group, const sph_
     a2_max = a2 > a2_max ? a2 : a2_max;
     speed_max = speed > speed_max ? speed : speed_max;
     lightest = view->rho[i] < lightest ? view->rho[i] : lightest;
+    heaviest = view->rho[i] > heaviest ? view->rho[i] : heaviest;
     const int is_bad = !(a2 + v2 + others(sim, view, i) < INFINITY);
     bad += is_bad;
     if (is_bad && i < first) first = i;
   }
-  return (extremes){v2_max, a2_max, speed_max, alpha_max, lightest, bad, first};
+  return (extremes){v2_max, a2_max, speed_max, alpha_max, lightest, heaviest, bad, first};
 }
 
 /* A gas may meet itself head on: its approach speed is up to 2 max |v|. */
@@ -200,6 +204,7 @@ int sph_sim_admit(sph_evaluation *e)
   for (int k = 0; k < SPH_BOUND_COUNT; k++) limit[k] = INFINITY;
   limit[SPH_BOUND_USER] = e->limit_user;
   if (sim->fresh) count(e);
+  sim->extremes.mach_now = sim->extremes.density_now = 0;
   if (part->pairs && !part->only_walls) sim->pairs += sim->pairs_now;
   for (int g = 0; g < sim->groups; g++) {
     const sph_group *group = sim->group[g];
@@ -210,6 +215,7 @@ int sph_sim_admit(sph_evaluation *e)
       return sph_sim_admit_retry(sim, "rates of %ld particles are not finite, %ld of %s first",
                                  x.bad, x.first, group->name);
     }
+    sph_sim_extremes_see(sim, group, sqrt(x.v2), x.lightest, x.heaviest);
     lower(&limit[SPH_BOUND_CFL], slowest(e, group, &x));
     if (!group->eos.dust) lower(&limit[SPH_BOUND_VISCOUS], viscous(e, &x));
     lower(&limit[SPH_BOUND_CONDUCTION], conduction(e, group, &x));

@@ -118,6 +118,13 @@ typedef struct sph_work {
   double t, power, sum; /* last measured at [s], [W/m^(3-dim)], [J/m^(3-dim)] */
 } sph_work;
 
+/* How far liquids went from what they are meant for. */
+typedef struct sph_extremes {
+  double mach, density;         /* the largest |v|/c0 and |rho/rho0 - 1| of all steps, */
+  double mach_now, density_now; /* and of the last evaluation */
+  double low[3], high[3];       /* of all particles at the start [m] */
+} sph_extremes;
+
 struct sph_sim {
   sph_error error;
   char retry[300]; /* why the last evaluation asked for a smaller step */
@@ -189,7 +196,8 @@ struct sph_sim {
   double
       limit[SPH_BOUND_COUNT]; /* step limits of the last evaluation, but not by fast terms, [s] */
   double limit_fast[SPH_BOUND_COUNT]; /* ... of the fast part */
-  long near;                          /* particles nearer than 0.1 dx to another, */
+  sph_extremes extremes;
+  long near;        /* particles nearer than 0.1 dx to another, */
   double pairs_now; /* directed pairs inside the support, both when they were counted last */
   double pairs, seconds, rhs_seconds, solve_seconds; /* solve: implicit stages, with f in them */
   long list_builds, revision, matrices;              /* matrices: that implicit stages filled */

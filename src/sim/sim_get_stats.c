@@ -1,4 +1,5 @@
 #include "shift_pair.h"
+#include "sim_extremes.h"
 #include "sim_implicit.h"
 #include "switch_pair.h"
 
@@ -34,4 +35,7 @@ void sph_sim_get_stats(const sph_sim *sim, sph_sim_stats *stats)
   stats->list_builds = sim->list_builds;
   stats->near = sim->near;
   stats->bytes = held(sim);
+  stats->mach = sim->extremes.mach;
+  stats->density = sim->extremes.density;
+  if (sim->prepared) stats->strayed = sph_sim_extremes_strayed(sim, &stats->strayed_by);
 }

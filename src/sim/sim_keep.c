@@ -193,6 +193,10 @@ static int keep_numbers(sph_sim *sim, sph_keep *keep)
   sph_keep_real(keep, "seconds", 1, &seconds);
   sph_keep_real(keep, "rhs_seconds", 1, &sim->rhs_seconds);
   sph_keep_real(keep, "solve_seconds", 1, &sim->solve_seconds);
+  if (!keep->reading || sph_keep_has(keep, "mach")) {
+    sph_keep_real(keep, "mach", 1, &sim->extremes.mach);
+    sph_keep_real(keep, "density", 1, &sim->extremes.density);
+  }
   if (keep->reading) sim->seconds = seconds;
   return sph_keep_integer(keep, "matrices", 1, &sim->matrices);
 }

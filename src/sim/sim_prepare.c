@@ -11,6 +11,7 @@
 #include "shift_pair.h"
 #include "sim_dominant.h"
 #include "sim_energy.h"
+#include "sim_extremes.h"
 #include "sim_failure.h"
 #include "sim_fit.h"
 #include "sim_implicit.h"
@@ -566,6 +567,7 @@ int sph_sim_prepare(sph_sim *sim)
   if (!status) status = make_integrator(sim);
   sim->prepared = sim->derived = !status;
   sim->start = sim->time;
+  sph_sim_extremes_start(sim);
   sph_sim_keep_start(sim);
   sim->revision++;
   return status;

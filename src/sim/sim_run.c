@@ -8,6 +8,7 @@
 
 #include "clock.h"
 #include "sim_event.h"
+#include "sim_extremes.h"
 #include "sim_failure.h"
 #include "sim_keep.h"
 #include "sim_mirror.h"
@@ -178,6 +179,7 @@ int sph_sim_run_step(sph_sim *sim, double t_stop, int framed)
   int cut = 0, status = sph_sim_event_start(sim);
   sim->stopped_by = NULL;
   if (!status) status = step(sim, t_stop);
+  if (!status) sph_sim_extremes_step(sim);
   if (!status) status = look_back(sim, framed, &cut);
   if (!status && framed) status = frames_of_steps(sim);
   if (!status && cut) status = sph_sim_event_act(sim);
