@@ -54,7 +54,8 @@ static const command commands[] = {
      "\n"
      "Exit status: as with run.\n"},
     {"check", "CASE.yml", "stK", sph_prog_check,
-     "validate a case and estimate its cost; nothing but the picture is written",
+     "validate a case and estimate its cost; nothing but the picture, with its script and data, is "
+     "written",
      "      --picture PNG      draw its groups; in 3D a slice through the middle\n"
      "  -s, --set KEY=VALUE    as with run\n"
      "  -t, --threads N        as with run\n"},

@@ -84,14 +84,11 @@ static void remove_stage(const char *stage)
   if (*stage) rmdir(stage);
 }
 
-static int picture(const prog_options *o, const sph_case *c, const sph_sim *sim)
+/* Of the start; what is wrong with it is told behind the report. */
+static void picture(const prog_options *o, const sph_case *c, const sph_sim *sim, sph_error *error)
 {
-  sph_error error = {0};
-  if (!o->picture) return PROG_OK;
-  if (sph_plot_geometry(sim, sph_case_title(c), o->picture, &error))
-    return sph_prog_error(PROG_FAILED, "no picture: %s", error.text);
-  printf("%-12s %s\n", "picture", o->picture);
-  return PROG_OK;
+  if (o->picture && !sph_plot_geometry(sim, sph_case_title(c), o->picture, error))
+    printf("%-12s %s\n", "picture", o->picture);
 }
 
 enum { STEPS = 20 };
@@ -136,14 +133,14 @@ static int estimate(sph_sim *sim, double end)
 
 /* The simulation at its start, then a few steps with its outputs. */
 static int try_out(const prog_options *o, const sph_case *c, sph_sim *sim, const char *stage,
-                   sph_error *error)
+                   sph_error *drawing, sph_error *error)
 {
   if (*sph_case_title(c)) printf("%s\n\n", sph_case_title(c));
   print_groups(sim);
   print_events(c);
-  int n = warnings(c, sim), status = picture(o, c, sim);
-  if (status) return status;
-  status = sph_case_plot_check(c, sim, error);
+  int n = warnings(c, sim);
+  picture(o, c, sim, drawing);
+  int status = sph_case_plot_check(c, sim, error);
   if (status) return status;
   sph_case_build_output_trial(c, sim, stage);
   status = sph_sim_status(sim);
@@ -157,18 +154,21 @@ static int try_out(const prog_options *o, const sph_case *c, sph_sim *sim, const
 int sph_prog_check(const prog_options *o)
 {
   char stage[STAGE] = "";
-  sph_error error = {0};
+  sph_error error = {0}, drawing = {0}; /* of the picture, which the rest does not need */
   sph_case *c = sph_case_read(o->what, o->sets, o->set, &error);
   int right = c && !sph_case_check_parts(c, &error);
   sph_sim *sim = right ? sph_case_build(c, o->threads, &error) : NULL;
   int status = sim ? sph_sim_evaluate(sim) : error.status, told = 0;
   if (!status) told = status = make_stage(stage);
-  if (!status) status = try_out(o, c, sim, stage, &error);
+  if (!status) status = try_out(o, c, sim, stage, &drawing, &error);
   remove_stage(stage);
+  fflush(stdout);
   if (error.status)
     sph_prog_error(PROG_FAILED, "%s", error.text);
   else if (status && !told && status != PROG_FAILED)
     sph_prog_sim_error(c, sim, o->what);
+  if (drawing.status)
+    status = sph_prog_error(PROG_FAILED, "no picture: %s (exit status 1)", drawing.text);
   sph_sim_free(sim);
   sph_case_free(c);
   return status ? PROG_FAILED : PROG_OK;

@@ -84,7 +84,8 @@ typedef struct sph_pack {
 
 typedef struct sph_packing {
   long particles;
-  int iterations, settled; /* settled 0: not as uniform as wanted */
+  int iterations, settled; /* settled 0: not as uniform as wanted, */
+  int stuck;               /* and more moves did not help; else their number was used up */
   double before, uniformity;
   double volume; /* of the shape [m^dim] */
 } sph_packing;

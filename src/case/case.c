@@ -6,6 +6,7 @@
 
 #include "case_include.h"
 #include "case_schema.h"
+#include "case_set.h"
 #include "memory.h"
 #include "text.h"
 
@@ -96,7 +97,10 @@ static int apply(sph_case *c, const char *set)
                                : sph_case_reader_new(SPH_CASE_SCALAR, NULL, "", c->error);
   if (!given) return c->error->status;
   set_origin(given, set);
-  int status = put(c, set, path, given);
+  static const char of_parameters[] = "parameters.";
+  const size_t n = strlen(of_parameters);
+  int status = strncmp(path, of_parameters, n) ? SPH_OK : sph_case_set_unit(c, path + n, given);
+  if (!status) status = put(c, set, path, given);
   sph_case_reader_free(given);
   return status;
 }

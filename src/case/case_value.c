@@ -93,6 +93,14 @@ static size_t no_unit(formula *f, size_t k, const char *word)
   return 0;
 }
 
+/* "5*H 0.1*H", "1.0.0" */
+static int is_behind_value(const formula *f, size_t k)
+{
+  while (k > 0 && (f->text[k - 1] == ' ' || f->text[k - 1] == '\t')) k--;
+  const unsigned char before = k > 0 ? (unsigned char)f->text[k - 1] : '+';
+  return isalnum(before) || strchr("_.)", before);
+}
+
 /* The number at text[k], with the unit behind it; the characters taken, 0: a problem. */
 static size_t number(formula *f, size_t k, const double scale[SPH_CASE_BASES])
 {
@@ -102,6 +110,17 @@ static size_t number(formula *f, size_t k, const double scale[SPH_CASE_BASES])
   size_t digits = (size_t)(end - start), gap = strspn(end, " \t");
   sph_case_unit unit;
   const size_t one = gap ? unit_one(end + gap) : 0;
+  if (!isfinite(v)) {
+    problem(f, k, "'%.*s' is too large a number; the largest is 1.8e308",
+            (int)fmin((double)digits, 40), start);
+    return 0;
+  }
+  if (is_behind_value(f, k)) {
+    problem(
+        f, k,
+        "a number right behind another value; between them belongs an operator, in a list a comma");
+    return 0;
+  }
   size_t taken = sph_case_unit_parse(end + gap + one, is_name, f, &unit);
   if (taken) {
     taken += one;
@@ -194,6 +213,10 @@ static int unknown_word(formula *f, size_t k, const char *word)
   for (size_t n = 0; n < sizeof functions / sizeof *functions && word[1]; n++)
     sph_words_add(&w, functions[n]);
   for (int n = 0; n < f->n && word[1]; n++) sph_words_add(&w, f->names[n].name);
+  char meant[80]; /* m3 */
+  if (isdigit((unsigned char)word[strlen(word) - 1]) &&
+      strchr(sph_case_unit_nearest(word, meant, sizeof meant), '^'))
+    snprintf(w.nearest, sizeof w.nearest, "%.60s", meant);
   const size_t n = strlen(w.nearest); /* with a space behind it */
   return problem(f, k, "'%s' is no parameter and no function, nor a table of tables%s%.*s", word,
                  n ? "; " : "", n ? (int)n - 1 : 0, w.nearest);

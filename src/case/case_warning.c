@@ -62,19 +62,13 @@ static void look_at_terms(finder *f, const sph_case_node *terms)
   }
 }
 
+/* What terms make of viscosities, conductivities, temperatures, the simulation tells itself. */
 static void look_at_group(finder *f, const sph_case_node *group, const sph_case_node *terms)
 {
   const int conduction = child_of(terms, "conduction") != NULL;
-  const int laminar = child_of(terms, "viscosity-laminar") != NULL;
-  const int viscous =
-      laminar || child_of(terms, "viscosity-artificial") || child_of(terms, "viscosity-signal");
   const sph_case_node *boundary = child_of(group, "boundary");
-  without(f, group, "viscosity", laminar, "the term viscosity-laminar");
-  without(f, group, "conductivity", conduction, "the term conduction");
   without(f, group, "seed", get_number(group, "jitter", 0) > 0, "jitter");
-  without(f, boundary, "temperature", conduction, "the term conduction");
   without(f, boundary, "heat_flux", conduction, "the term conduction");
-  without(f, boundary, "no_slip", viscous, "a viscosity among the terms");
   const char *model = get_text(boundary, "model", "adami");
   without(f, boundary, "heat_flux", !strcmp(model, "mirror") || !conduction, "model: mirror");
   without(f, boundary, "repulsion", !strcmp(model, "adami"), "model: adami");

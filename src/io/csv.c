@@ -15,6 +15,19 @@ typedef struct table {
   int too_long, columns;
 } table;
 
+/* "a","b" is a,b: pandas, R and spreadsheets write quotes. */
+static void unquote(char *line)
+{
+  char *to = line;
+  int inside = 0;
+  for (const char *from = line; *from; from++)
+    if (*from == '"')
+      inside = !inside;
+    else
+      *to++ = (char)(inside && *from == ',' ? ' ' : *from);
+  *to = '\0';
+}
+
 /* The next line that is neither empty nor a comment; 0 at the end, or at one that is too long. */
 static int next_line(table *t)
 {
@@ -23,6 +36,7 @@ static int next_line(table *t)
     t->too_long = strlen(t->line) + 1 == sizeof t->line && t->line[sizeof t->line - 2] != '\n';
     if (t->too_long) return 0;
     t->line[strcspn(t->line, "\r\n")] = '\0';
+    unquote(t->line);
     if (t->line[0] != '#' && t->line[strspn(t->line, " \t")] != '\0') return 1;
   }
   return 0;

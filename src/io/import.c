@@ -86,6 +86,7 @@ static int check_columns(importer *m, const sph_group *group)
   int there = 1;
   for (int k = 0; there == 1; k++) {
     there = sph_csv_name(m->def->path, k, name, &m->error);
+    if (k == 0 && there == 1 && !*name) continue; /* numbers of rows, by pandas and R */
     if (there == 1 && !is_known(group, name))
       return sph_error_set(
           &m->error, SPH_ERR_ARGUMENT,

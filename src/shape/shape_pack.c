@@ -208,6 +208,8 @@ static void move(const packer *p)
   }
 }
 
+enum { STUCK = 50 }; /* moves without any use */
+
 static int relax(packer *p, const sph_pack *pack, sph_packing *info)
 {
   const int most = pack->iterations > 0 ? pack->iterations : 500;
@@ -226,11 +228,12 @@ static int relax(packer *p, const sph_pack *pack, sph_packing *info)
       best = info->uniformity;
       for (int d = 0; d < p->dim; d++) memcpy(p->best[d], p->x[d], (size_t)p->n * sizeof *p->x[d]);
     }
-    if (info->uniformity <= wanted || since == 50) break;
+    if (info->uniformity <= wanted || since == STUCK) break;
     move(p);
   }
   info->uniformity = best;
   info->settled = !status && best <= wanted;
+  info->stuck = !info->settled && since == STUCK;
   return status;
 }
 

@@ -75,10 +75,12 @@ static void find_uneven(sph_finder *f, const sph_group *group)
 {
   const sph_packing *p = &group->packing;
   if (p->particles == 0 || p->settled || p->uniformity <= 2 * group->packed_to) return;
-  sph_sim_warning_found(f,
-                        "%s: packed in %d moves to an unevenness of %.2g, not to %.2g as wanted; "
-                        "right are more iterations, a smaller spacing, or a lattice as it is",
-                        group->name, p->iterations, p->uniformity, group->packed_to);
+  sph_sim_warning_found(
+      f, "%s: packed in %d moves to an unevenness of %.2g, not to %.2g as wanted; %s", group->name,
+      p->iterations, p->uniformity, group->packed_to,
+      p->stuck ? "more moves did not help, as at sharp corners; right is a "
+                 "smaller spacing, rounder corners, or a lattice as it is"
+               : "no more were allowed; right are more iterations");
 }
 
 /* ---- gaps: the outermost particles of a fluid, and what is ahead of them */

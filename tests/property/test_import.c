@@ -131,22 +131,27 @@ static void table_by_hand(void **state)
       "  eos: {linear: {sound_speed: 10 m/s}}}\n"
       "terms: {pressure: {}}\nrun: {end: 0.1 s}\n";
   sph_error error = {0};
-  write_text("points.csv", "# made by hand\ny [m], x [m],velocity_y [m/s],mass [kg/m]\n"
-                           "0.5,0.25,1,10\n0.5,0.35,-3,20\n0.7,0.4,0,5.5\n");
-  sph_case *c = sph_case_read_text(in("case.yml"), text, sizeof text - 1, 0, NULL, &error);
-  sph_sim *sim = c ? sph_case_build(c, 1, &error) : NULL;
-  if (!sim) fail_msg("%s", error.text);
-  const sph_group *water = sph_sim_group(sim, "water");
-  assert_int_equal(sph_group_count(water), 4);
-  assert_near(sph_group_read(water, "position", 0)[2], 0.35, 0);
-  assert_near(sph_group_read(water, "position", 1)[3], 0.7, 0);
-  assert_near(sph_group_read(water, "velocity", 1)[2], -3, 0);
-  assert_near(sph_group_read(water, "velocity", 0)[2], 0, 0);
-  assert_near(sph_group_read(water, "mass", 0)[3], 5.5, 0);
-  assert_near(sph_group_read(water, "density", 0)[1], 1000, 0);
-  assert_near(sph_group_read(water, "mass", 0)[0], 10, 1e-12); /* of the box, as it was */
-  sph_sim_free(sim);
-  sph_case_free(c);
+  for (int quoted = 0; quoted < 2; quoted++) { /* as pandas and R do */
+    write_text("points.csv",
+               quoted ? "\"\",\"y [m]\",\"x [m]\",\"velocity_y [m/s]\",\"mass [kg/m]\"\n"
+                        "\"1\",0.5,0.25,1,10\n\"2\",0.5,0.35,-3,20\n\"3\",0.7,0.4,0,5.5\n"
+                      : "# made by hand\ny [m], x [m],velocity_y [m/s],mass [kg/m]\n"
+                        "0.5,0.25,1,10\n0.5,0.35,-3,20\n0.7,0.4,0,5.5\n");
+    sph_case *c = sph_case_read_text(in("case.yml"), text, sizeof text - 1, 0, NULL, &error);
+    sph_sim *sim = c ? sph_case_build(c, 1, &error) : NULL;
+    if (!sim) fail_msg("%s", error.text);
+    const sph_group *water = sph_sim_group(sim, "water");
+    assert_int_equal(sph_group_count(water), 4);
+    assert_near(sph_group_read(water, "position", 0)[2], 0.35, 0);
+    assert_near(sph_group_read(water, "position", 1)[3], 0.7, 0);
+    assert_near(sph_group_read(water, "velocity", 1)[2], -3, 0);
+    assert_near(sph_group_read(water, "velocity", 0)[2], 0, 0);
+    assert_near(sph_group_read(water, "mass", 0)[3], 5.5, 0);
+    assert_near(sph_group_read(water, "density", 0)[1], 1000, 0);
+    assert_near(sph_group_read(water, "mass", 0)[0], 10, 1e-12); /* of the box, as it was */
+    sph_sim_free(sim);
+    sph_case_free(c);
+  }
 }
 
 static void refuse(const char *name, const char *text, const char *why)

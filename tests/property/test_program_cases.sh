@@ -75,6 +75,29 @@ for f in "window: [5, 6], time_scale: 0.01s, reference: {csv: {file: front.csv}}
 done
 ok $good "a comparison that gives no number says why"
 
+layers="groups.tank.shapes=[layers: {lower: [0, 0.1 m], upper: [5*H, 3*H], open: [y+]}]"
+run 0 "$sphode" run tank2.yml --set "$layers" --set run.end=0.8s -f -o short && grep -q "^liquids  *Mach number up to 0.[3-9][0-9]*, density up to" out &&
+  grep -q "^warning  *a liquid was faster than 0.3 of its sound speed" out && grep -q "^warning  *[0-9]* particles are far outside of where everything was at the start, up to [1-9.]* m" out &&
+  grep -q '"strayed_particles": [1-9]' short/summary.json && grep -q '"mach_largest": 0.[3-9]' short/summary.json && grep -q "^warning" short/summary.txt
+ok $? "what leaves its tank, and what is too fast, is told at the end"
+run 0 "$sphode" run tank2.yml --set run.end=0.3s -f -o short && grep -q "^liquids  *Mach number up to 0.1[0-9]*, density up to 0.[0-9]* % off" out && ! grep -q "^warning" out
+ok $? "a tank that is right has no warning"
+
+# ---- parameters by --set
+
+good=0
+for set in H=0.5 g=1.62 H=1/4 parameters.g=9; do
+  run 0 "$sphode" check tank2.yml --set $set && grep -q "^the case  *right" out || { good=1; sed 's/^/# /' err; }
+done
+run 0 "$sphode" run tank2.yml --set H=0.5 --set run.end=0.01s --set g=1/2 -q -f -o short && grep -q "^  H: 0.5 m$" short/case.yml && run 0 "$sphode" check short/case.yml || good=1
+ok $good "a plain number for one with a unit has this unit in SI"
+
+fails "cubic metres" "density: 'm3' is no parameter and no function, nor a table of tables; did you mean m^3?" "groups.water.density=1000 kg/m3"
+fails "squared seconds" "'s2' is no parameter .*; did you mean s^2?" "terms.gravity.acceleration=[0, -9.81 m/s2]"
+fails "a number too large" "spacing: '1e400' is too large a number" "spacing=1e400 m"
+fails "a comma that is missing" "a number right behind another value; between them belongs an operator, in a list a comma" "output.monitors.pressure.at=[5*H 0.1*H]"
+fails "points too many" "a number right behind another value" "spacing=1.0.0"
+
 fails "a picture of no field" "field: snapshots will have no 'velocit'; did you mean 'velocity'? they have: position, velocity, density" plot.field=velocit
 fails "snapshots too many for a step" "snapshots: 1e-12 s is too short for steps of 0.00[0-9]* s; right is at least" output.snapshots=1e-12
 fails "rows too many for a step" "series: 1e-12 s is too short for steps" output.series=1e-12
@@ -102,10 +125,11 @@ warns() { # what the warning says, --set...
 }
 good=0
 warns "alpha_min: does nothing without a switch" terms.viscosity-artificial.alpha_min=0.01
-warns "viscosity: does nothing without the term viscosity-laminar" "groups.water.viscosity=1 mPa s"
-warns "conductivity: does nothing without the term conduction" "groups.water.conductivity=1"
+warns "water has a viscosity, but there is no viscosity-laminar" "groups.water.viscosity=1 mPa s"
+[[ $(grep -c "^warning" out) == 1 ]] || good=1 # once
+warns "water has a conductivity, but there is no conduction" "groups.water.conductivity=1"
 warns "heat_flux: does nothing without the term conduction" "groups.tank.boundary={model: mirror, heat_flux: 1 W/m^2}"
-warns "temperature: does nothing without the term conduction" "groups.tank.boundary={temperature: 300 K}"
+warns "wall tank has a temperature, but there is no conduction" "groups.tank.boundary={temperature: 300 K}"
 warns "linear: does nothing without an imex: method" integrator.linear=klu
 warns "tolerance: does nothing without error control" integrator.tolerance=0.1 integrator.error_control=false
 warns "cfl: does nothing without steps that change" integrator.cfl=0.5 "integrator.dt_fixed=0.1 ms"
@@ -184,7 +208,7 @@ ok $? "counts and bytes are those that a run writes"
 run 0 "$sphode" run tank2.yml --set "run.end=1 ms" --set "groups.water.viscosity=1 mPa s" -o warned && cp err said
 run 0 "$sphode" check tank2.yml --set "run.end=1 ms" --set "groups.water.viscosity=1 mPa s"
 sed -n 's/^warning  */sphode: warning: /p' out >wanted
-grep -q "viscosity: does nothing without" wanted && diff wanted <(grep "^sphode: warning: " said) >/dev/null &&
+grep -q "water has a viscosity, but there is no" wanted && diff wanted <(grep "^sphode: warning: " said) >/dev/null &&
   run 0 "$sphode" run tank2.yml --set "run.end=1 ms" --set "groups.water.viscosity=1 mPa s" -o warned -f -q && [[ ! -s err ]]
 ok $? "a run says the warnings of a check, but not with --quiet"
 event='events={fill: {when: {front: {at: 4*H}}, snapshot: true, once: true}, turn: {when: {time: 0.5 s}, stop: true, change: {gravity: [0, -1], delta: 0.2, walls: {tank: {velocity: [1, 0]}}}}}'
@@ -205,6 +229,8 @@ if command -v gnuplot >/dev/null; then
 else
   ok 0 "a picture # SKIP no gnuplot"
 fi
+run 1 "$sphode" check tank2.yml --picture a.pdf && grep -q "^steps " out && grep -q "^the case  *right" out && grep -q "no picture: .*a name like x.png is right" err
+ok $? "a picture that cannot be drawn is told behind the report"
 [[ -z $(ls "$TMPDIR") ]]
 ok $? "nothing is left behind"
 
