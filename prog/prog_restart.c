@@ -14,14 +14,14 @@ static void forget(prog_job *j)
   j->c = NULL;
 }
 
-/* The case of the checkpoint with what is set now besides; with `last`, too. */
-static sph_case *case_of(const prog_job *j, const sph_checkpoint_info *info, const char *last,
-                         sph_error *error)
+/* The case of the checkpoint with the first `sets` that are set now besides; with `last`, too. */
+static sph_case *case_of(const prog_job *j, const sph_checkpoint_info *info, int sets,
+                         const char *last, sph_error *error)
 {
   const char *set[2 * PROG_SETS + 1];
   int n = 0;
   for (int k = 0; k < info->sets && n < PROG_SETS; k++) set[n++] = info->set[k];
-  for (int k = 0; k < j->o->sets; k++) set[n++] = j->o->set[k];
+  for (int k = 0; k < sets; k++) set[n++] = j->o->set[k];
   if (last) set[n++] = last;
   const char *text = info->case_text ? info->case_text : "";
   char kept[4096];
@@ -31,6 +31,26 @@ static sph_case *case_of(const prog_job *j, const sph_checkpoint_info *info, con
   return sph_case_read_text(kept, text, strlen(text), n, set, error);
 }
 
+/* Each --set by itself, behind those in front of it: can the run go on with it? */
+static int check_sets(const prog_job *j, const sph_checkpoint_info *info)
+{
+  sph_error error = {0}, none = {0};
+  int bad = 0, k = 0;
+  sph_case *before = j->o->sets ? case_of(j, info, 0, NULL, &none) : NULL;
+  for (; before && !bad && k < j->o->sets; k++) {
+    none = (sph_error){0};
+    sph_case *now = case_of(j, info, k + 1, NULL, &none);
+    if (!now) continue; /* it needs one behind it */
+    bad = sph_case_restart_check(before, now, &error);
+    sph_case_free(before);
+    before = now;
+  }
+  sph_case_free(before);
+  return bad ? sph_prog_error(PROG_FAILED, "%s: --set %s: %s", j->directory, j->o->set[k - 1],
+                              error.text)
+             : PROG_OK;
+}
+
 static int set_end(prog_job *j, const sph_checkpoint_info *info)
 {
   char until[200];
@@ -38,7 +58,7 @@ static int set_end(prog_job *j, const sph_checkpoint_info *info)
   j->end = sph_case_end(j->c);
   if (!j->o->until) return PROG_OK;
   snprintf(until, sizeof until, "run.end=%s", j->o->until);
-  sph_case *other = case_of(j, info, until, &error);
+  sph_case *other = case_of(j, info, j->o->sets, until, &error);
   if (!other) return sph_prog_error(PROG_FAILED, "--until: %s", error.text);
   j->end = sph_case_end(other);
   sph_case_free(other);
@@ -88,8 +108,9 @@ static int go_on_from(prog_job *j, const char *path)
   int status = PROG_OK;
   if (!info.case_path || !info.case_text)
     status = sph_prog_error(PROG_FAILED, "%s: it is not of a case file", path);
-  if (!status && !(j->c = case_of(j, &info, NULL, &error)))
+  if (!status && !(j->c = case_of(j, &info, j->o->sets, NULL, &error)))
     status = sph_prog_error(PROG_FAILED, "%s", error.text);
+  if (!status) status = check_sets(j, &info);
   if (!status) status = set_end(j, &info);
   /* One that came to its end may have been killed before it was concluded. */
   if (!status && (info.time > j->end || (info.time == j->end && has_ended(j))))
@@ -140,6 +161,11 @@ static int prepare(prog_job *j)
   for (; status < 0 && sph_checkpoint_find(j->directory, k, path, sizeof path); k++)
     status = go_on_from(j, path);
   if (status >= 0) return status;
+  if (k && j->o->sets > 0)
+    return sph_prog_error(PROG_FAILED,
+                          "%s: none of its checkpoints can be used with what is set now; sphode "
+                          "restart %s without --set may go on",
+                          j->directory, j->directory);
   if (k)
     return sph_prog_error(PROG_FAILED,
                           "%s: none of its checkpoints can be used; sphode run begins again with "

@@ -71,6 +71,10 @@ SPH_API int sph_case_size_get(const sph_case *c, sph_sim *sim, const char *direc
 SPH_API void sph_case_build_checkpoints(const sph_case *c, sph_sim *sim, const char *directory,
                                         const char *command);
 
+/* May a run of case `before` go on as one of case `now`?  What its state was made with, what its
+ * tables have columns and rows of must stay: what is another there is told by its key. */
+SPH_API int sph_case_restart_check(const sph_case *before, const sph_case *now, sph_error *error);
+
 /* Copies of the files that the case names (tables, surfaces, particles) to directory/files, where a
  * case in that directory finds them before any others; of those above 64 MB symbolic links.  A
  * status. */

@@ -98,6 +98,7 @@ static void no_case(void **state)
   sph_case_size size;
   told(&e, sph_case_size_get(NULL, NULL, NULL, 0, &size, &e), "no case (NULL)");
   told(&e, sph_case_plot_check(NULL, NULL, &e), "no case (NULL)");
+  told(&e, sph_case_restart_check(NULL, NULL, &e), "no case (NULL)");
   assert_int_equal(sph_case_warning_places(NULL, NULL, 0, png, sizeof png), 0);
   assert_int_equal(sph_case_place(NULL, "probe a:", png, sizeof png), 0);
   told(&e, (int)sph_output_hdf5_size(NULL, NULL, &e), "no simulation (NULL)");

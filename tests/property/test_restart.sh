@@ -125,7 +125,7 @@ run 0 set "$sphode" restart out -q --set "output.snapshots=T/6" --set terms.visc
   [[ $(ls set/out/snapshot_* | wc -l) -gt $(ls whole/out/snapshot_* | wc -l) ]] && ! cmp -s set/out/series.csv whole/out/series.csv &&
   grep -q "alpha=0.2" set/out/case.yml
 ok $? "--set changes what follows"
-run 1 other "$sphode" restart out --set spacing=1cm -q && grep -q "of another simulation" err
+run 1 other "$sphode" restart out --set spacing=1cm -q && grep -q "out: --set spacing=1cm: .* cannot change where a run goes on; what can: run" err
 ok $? "and refuses what makes another simulation"
 # However slow the machine, each life makes a step.
 run 4 limit "$sphode" run "${case[@]}" --set run.time_limit=0.1s

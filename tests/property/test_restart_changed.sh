@@ -67,4 +67,36 @@ mkdir bare && cp "$(newest first)" bare
 run 0 "$sphode" restart bare -q --until 0.3s && cmp <(tail -n 5 bare/series.csv) <(tail -n 5 hurt/series.csv)
 ok $? "a checkpoint alone, elsewhere, is enough"
 
+# ---- what is set
+
+refused() { # KEY=VALUE, the key that is told
+  run 1 "$sphode" restart first -q --until 0.3s --set "$1" && grep -q "first: --set ${1%%=*}=.*: $2 (.*) cannot change where a run goes on; what can:" err
+  ok $? "--set $1 is refused"
+}
+taken() { # KEY=VALUE
+  rm -rf hurt
+  cp -r first hurt
+  run 0 "$sphode" restart hurt -q --until 0.22s --set "$1"
+  ok $? "--set $1 is taken"
+}
+refused groups.water.density=500 groups.water.density
+refused H=0.31m groups.water.shapes.0.box.upper.0
+refused spacing=2.5cm spacing
+refused terms.xsph.epsilon=0.1 terms.xsph
+refused output.probes.column.line.n=5 output.probes.column.line.n
+refused "output.monitors.front={type: front}" output.monitors
+refused kernel.name=wendland-c6 kernel.name
+refused "groups.water.eos.linear.sound_speed=40 m/s" groups.water.eos.linear.sound_speed
+refused terms.viscosity-artificial.switch=balsara terms.viscosity-artificial.switch
+refused "groups.water.initial.velocity=[1 m/s, 0 m/s]" groups.water.initial.velocity.0
+run 1 "$sphode" restart first -q --set run.end=0.3s --set spacing=2.5cm && grep -q -- "--set spacing=2.5cm: spacing (it was 3 cm, is 2.5cm)" err &&
+  ! grep -q "sphode run" err
+ok $? "the one of several that cannot be taken is named, and no run is thrown away"
+for set in alpha=0.2 terms.viscosity-artificial.alpha=0.2 terms.viscosity-artificial.beta=1 "H=300 mm" run.time_limit=1h integrator.cfl=0.2 \
+  integrator.method=leapfrog "output.series=5 ms" "output.probes.p.interval=5 ms" "groups.water.viscosity=0.02 Pa s" checkpoint.steps=7 \
+  "output.probes.q={at: [1 m, 0.1 m]}" "events.late={when: {time: 0.21 s}}" density_reset.every=20 "speed=5 m/s" \
+  "title=another" plot.field=pressure; do
+  taken "$set"
+done
+
 echo 1..$count
