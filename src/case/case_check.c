@@ -79,21 +79,21 @@ static int unknown_key(sph_case *c, const char *mapping, const sph_case_node *no
 static int check_unit(sph_case *c, const sph_case_key *key, const sph_case_node *node,
                       const sph_case_value *value)
 {
-  sph_case_unit unit = {.factor = 1};
+  sph_si_unit unit = {.factor = 1};
   double off = 0, dimension = 0;
   if (!strcmp(key->unit, "any") || value->any) return SPH_OK;
   if (strcmp(key->unit, "1")) {
     int inverse = key->unit[0] == '1'; /* "1/s" */
-    sph_case_unit_parse(key->unit + 2 * inverse, NULL, NULL, &unit);
-    for (int b = 0; b < SPH_CASE_BASES && inverse; b++) unit.power[b] = -unit.power[b];
+    sph_si_unit_parse(key->unit + 2 * inverse, NULL, NULL, &unit);
+    for (int b = 0; b < SPH_SI_BASES && inverse; b++) unit.power[b] = -unit.power[b];
   }
-  for (int b = 0; b < SPH_CASE_BASES; b++) {
+  for (int b = 0; b < SPH_SI_BASES; b++) {
     dimension += fabs(value->power[b]);
     off += fabs(value->power[b] - unit.power[b]);
   }
   if (dimension == 0 || off < 1e-6) return SPH_OK;
   char found[80];
-  sph_case_unit_write(value->power, found, sizeof found);
+  sph_si_unit_write(value->power, found, sizeof found);
   return FAIL(node, 0, "%s: found %s, wanted %s", key->name, found,
               strcmp(key->unit, "1") ? key->unit : "a plain number");
 }
@@ -190,7 +190,7 @@ static int check_name(sph_case *c, const sph_case_node *node)
   for (size_t k = 0; k < sizeof taken / sizeof *taken; k++)
     if (!strcmp(name, taken[k]))
       return FAIL_KEY(node, "'%s' has a meaning of its own; choose another name", name);
-  if (strcmp(name, "g") && sph_case_unit_known(name, n))
+  if (strcmp(name, "g") && sph_si_unit_known(name, n))
     return FAIL_KEY(node, "'%s' is a unit; choose another name", name);
   return SPH_OK;
 }

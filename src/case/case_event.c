@@ -89,13 +89,13 @@ static int check_level(const sph_case *c, const sph_case_node *level)
   double off = 0, dimension = 0;
   char got[80];
   if (!level || sph_case_value_evaluate(level->text, c->names, c->n, &value)) return SPH_OK;
-  const double energy[SPH_CASE_BASES] = {1, c->dim - 1, -2};
-  for (int b = 0; b < SPH_CASE_BASES; b++) {
+  const double energy[SPH_SI_BASES] = {1, c->dim - 1, -2};
+  for (int b = 0; b < SPH_SI_BASES; b++) {
     dimension += fabs(value.power[b]);
     off += fabs(value.power[b] - energy[b]);
   }
   if (dimension == 0 || off < 1e-6) return SPH_OK;
-  sph_case_unit_write(value.power, got, sizeof got);
+  sph_si_unit_write(value.power, got, sizeof got);
   return FAIL_VALUE(level, "level: found %s, wanted %s, an energy in %d dimension%s", got,
                     unit[c->dim - 1], c->dim, c->dim == 1 ? "" : "s");
 }

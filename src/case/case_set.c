@@ -10,7 +10,7 @@
 static int is_plain(const sph_case_value *value)
 {
   double dimension = 0;
-  for (int b = 0; b < SPH_CASE_BASES; b++) dimension += fabs(value->power[b]);
+  for (int b = 0; b < SPH_SI_BASES; b++) dimension += fabs(value->power[b]);
   return dimension == 0;
 }
 
@@ -42,7 +42,7 @@ int sph_case_set_unit(const sph_case *c, const char *name, sph_case_node *given)
       value_of(c, name, names, &n, &old) || is_plain(&old) ||
       sph_case_value_evaluate(given->text, names, n, &value) || !is_plain(&value))
     return SPH_OK;
-  sph_case_unit_write(old.power, unit, sizeof unit);
+  sph_si_unit_write(old.power, unit, sizeof unit);
   (void)strtod(given->text, &end);
   snprintf(text, sizeof text, *end ? "(%s)*(1 %s)" : "%s %s", given->text, unit);
   if (sph_case_value_evaluate(text, names, n, &value)) return SPH_OK; /* a unit as m^0.5 */

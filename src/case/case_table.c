@@ -120,13 +120,13 @@ static int check_repeat(const sph_case_table *it, const char *path, sph_error *e
 static int is_time(const sph_case_value *unit)
 {
   double others = 0;
-  for (int b = 0; b < SPH_CASE_BASES; b++) others += b == 2 ? 0 : fabs(unit->power[b]);
+  for (int b = 0; b < SPH_SI_BASES; b++) others += b == 2 ? 0 : fabs(unit->power[b]);
   return others == 0 && (unit->power[2] == 0 || unit->power[2] == 1);
 }
 
 /* given: the unit of the case, NULL: that of the file. */
 static int load(sph_case *c, sph_case_table *it, const sph_case_node *map, const char *path,
-                const sph_case_value *given, double power[SPH_CASE_BASES])
+                const sph_case_value *given, double power[SPH_SI_BASES])
 {
   char t_title[128], title[128];
   sph_case_value t_unit, unit;

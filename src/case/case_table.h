@@ -1,7 +1,7 @@
 /* case_table.h -- a number over time, from a table. */
 #ifndef SPH_CASE_TABLE_H
 #define SPH_CASE_TABLE_H
-#include "case_unit.h"
+#include "si_unit.h"
 #include "sphode/base.h"
 
 typedef struct sph_case_table sph_case_table;

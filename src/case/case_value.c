@@ -62,10 +62,10 @@ static int is_name(void *ctx, const char *word, size_t length)
   return 0;
 }
 
-static double scaling(const double power[SPH_CASE_BASES], const double scale[SPH_CASE_BASES])
+static double scaling(const double power[SPH_SI_BASES], const double scale[SPH_SI_BASES])
 {
   double s = 1;
-  for (int b = 0; b < SPH_CASE_BASES; b++) s *= pow(scale[b], power[b]);
+  for (int b = 0; b < SPH_SI_BASES; b++) s *= pow(scale[b], power[b]);
   return s;
 }
 
@@ -89,7 +89,7 @@ static size_t no_unit(formula *f, size_t k, const char *word)
     problem(f, k,
             "'%s' is not a unit; %sknown are kg, m, s, K, mol, N, Pa, J, W with their multiples as "
             "mm, kPa, deg, and products as m/s^2; a product with a name needs *",
-            text, sph_case_unit_nearest(text, meant, sizeof meant));
+            text, sph_si_unit_nearest(text, meant, sizeof meant));
   return 0;
 }
 
@@ -102,13 +102,13 @@ static int is_behind_value(const formula *f, size_t k)
 }
 
 /* The number at text[k], with the unit behind it; the characters taken, 0: a problem. */
-static size_t number(formula *f, size_t k, const double scale[SPH_CASE_BASES])
+static size_t number(formula *f, size_t k, const double scale[SPH_SI_BASES])
 {
   char piece[100], *end;
   const char *start = f->text + k;
   double v = strtod(start, &end);
   size_t digits = (size_t)(end - start), gap = strspn(end, " \t");
-  sph_case_unit unit;
+  sph_si_unit unit;
   const size_t one = gap ? unit_one(end + gap) : 0;
   if (!isfinite(v)) {
     problem(f, k, "'%.*s' is too large a number; the largest is 1.8e308",
@@ -121,7 +121,7 @@ static size_t number(formula *f, size_t k, const double scale[SPH_CASE_BASES])
         "a number right behind another value; between them belongs an operator, in a list a comma");
     return 0;
   }
-  size_t taken = sph_case_unit_parse(end + gap + one, is_name, f, &unit);
+  size_t taken = sph_si_unit_parse(end + gap + one, is_name, f, &unit);
   if (taken) {
     taken += one;
     snprintf(piece, sizeof piece, "(%.17g*%.17g)", v, unit.factor * scaling(unit.power, scale));
@@ -167,7 +167,7 @@ static int forbidden(formula *f)
   return SPH_OK;
 }
 
-static int translate(formula *f, const double scale[SPH_CASE_BASES])
+static int translate(formula *f, const double scale[SPH_SI_BASES])
 {
   f->length = 0;
   f->translated[0] = 0;
@@ -215,7 +215,7 @@ static int unknown_word(formula *f, size_t k, const char *word)
   for (int n = 0; n < f->n && word[1]; n++) sph_words_add(&w, f->names[n].name);
   char meant[80]; /* m3 */
   if (isdigit((unsigned char)word[strlen(word) - 1]) &&
-      strchr(sph_case_unit_nearest(word, meant, sizeof meant), '^'))
+      strchr(sph_si_unit_nearest(word, meant, sizeof meant), '^'))
     snprintf(w.nearest, sizeof w.nearest, "%.60s", meant);
   const size_t n = strlen(w.nearest); /* with a space behind it */
   return problem(f, k, "'%s' is no parameter and no function, nor a table of tables%s%.*s", word,
@@ -239,7 +239,7 @@ static int muparser_problem(formula *f, muParserHandle_t parser)
   return problem(f, (size_t)f->origin[at], "not an expression: %s", message);
 }
 
-static muParserHandle_t open_parser(formula *f, const double scale[SPH_CASE_BASES])
+static muParserHandle_t open_parser(formula *f, const double scale[SPH_SI_BASES])
 {
   muParserHandle_t parser = mupCreate(0);
   if (!parser) {
@@ -256,7 +256,7 @@ static muParserHandle_t open_parser(formula *f, const double scale[SPH_CASE_BASE
 }
 
 /* The value with units scaled; the lock is held. */
-static int evaluate(formula *f, const double scale[SPH_CASE_BASES], double *value)
+static int evaluate(formula *f, const double scale[SPH_SI_BASES], double *value)
 {
   if (translate(f, scale)) return SPH_ERR_PARSE;
   muParserHandle_t parser = open_parser(f, scale);
@@ -270,7 +270,7 @@ static int evaluate(formula *f, const double scale[SPH_CASE_BASES], double *valu
 /* The exponent of base b, from two ratios that must agree. */
 static int exponent(formula *f, int b, double *power)
 {
-  double scale[SPH_CASE_BASES] = {1, 1, 1, 1, 1}, more, less, value = f->result->value;
+  double scale[SPH_SI_BASES] = {1, 1, 1, 1, 1}, more, less, value = f->result->value;
   scale[b] = 4;
   if (evaluate(f, scale, &more)) return SPH_ERR_PARSE;
   scale[b] = 0.25;
@@ -302,13 +302,13 @@ static int prepare(formula *f, const char *text, const sph_case_name *names, int
   return forbidden(f);
 }
 
-static const double si[SPH_CASE_BASES] = {1, 1, 1, 1, 1};
+static const double si[SPH_SI_BASES] = {1, 1, 1, 1, 1};
 
 static int dimensions(formula *f)
 {
   f->result->any = f->result->value == 0;
   if (f->result->any) return SPH_OK;
-  for (int b = 0; b < SPH_CASE_BASES; b++)
+  for (int b = 0; b < SPH_SI_BASES; b++)
     if (exponent(f, b, &f->result->power[b])) return SPH_ERR_PARSE;
   return SPH_OK;
 }
@@ -368,7 +368,7 @@ static int any_unit(const char *text, const sph_case_name *names, int n, int dim
   /* "sin(3*x)": fine where everything is a plain number. */
   sph_case_value plain;
   if (field_unit(text, names, n, dim, timed, 0, &plain)) return status;
-  for (int b = 0; b < SPH_CASE_BASES; b++)
+  for (int b = 0; b < SPH_SI_BASES; b++)
     if (plain.power[b] != 0) return status;
   *result = plain;
   return SPH_OK;

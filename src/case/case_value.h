@@ -2,7 +2,7 @@
 #ifndef SPH_CASE_VALUE_H
 #define SPH_CASE_VALUE_H
 #include "case_table.h"
-#include "case_unit.h"
+#include "si_unit.h"
 #include "sphode/base.h"
 
 enum { SPH_CASE_VALUE_LENGTH = 1000 };
@@ -11,16 +11,16 @@ enum { SPH_CASE_VALUE_LENGTH = 1000 };
 typedef struct sph_case_name {
   char *name;
   double value; /* SI; of a table: some value of it */
-  double power[SPH_CASE_BASES];
+  double power[SPH_SI_BASES];
   sph_case_table *table; /* NULL: it is no table */
 } sph_case_name;
 
 typedef struct sph_case_value {
-  double value;                 /* SI */
-  double power[SPH_CASE_BASES]; /* of kg, m, s, K, mol */
-  int any;                      /* the value is 0: it fits any unit */
-  int column;                   /* of a problem, from 0 */
-  char problem[300];            /* what was found; what is right; "" without */
+  double value;               /* SI */
+  double power[SPH_SI_BASES]; /* of kg, m, s, K, mol */
+  int any;                    /* the value is 0: it fits any unit */
+  int column;                 /* of a problem, from 0 */
+  char problem[300];          /* what was found; what is right; "" without */
 } sph_case_value;
 
 /* Evaluates text with names[n]; problems (also values not finite, sums of metres and seconds)

@@ -6,6 +6,7 @@
 
 #include "csv.h"
 #include "memory.h"
+#include "si_unit.h"
 #include "sphode/sim.h"
 #include "table.h"
 #include "units.h"
@@ -47,10 +48,23 @@ static const char *unit_of(const importer *m, const char *field)
   return "";
 }
 
-static int check_unit(importer *m, const char *field, const char *unit)
+static int parse_unit(const char *text, sph_si_unit *unit)
 {
-  const char *right = unit_of(m, field);
+  const size_t n = sph_si_unit_parse(text, NULL, NULL, unit);
+  return n > 0 && text[n + strspn(text + n, " \t")] == '\0';
+}
+
+/* The values of wanted[k], in a unit of the file, into SI. */
+static int convert(importer *m, int k, const char *unit)
+{
+  const char *field = wanted[k].field, *right = unit_of(m, field);
+  sph_si_unit from, to;
   if (!*unit || !strcmp(unit, right)) return SPH_OK;
+  if (parse_unit(unit, &from) && parse_unit(right, &to) &&
+      !memcmp(from.power, to.power, sizeof to.power)) {
+    for (long i = 0; i < m->n; i++) m->value[k][i] *= from.factor / to.factor;
+    return SPH_OK;
+  }
   return sph_error_set(&m->error, SPH_ERR_ARGUMENT, "%s: %s in %.60s; right is %s", m->def->path,
                        field, unit, right);
 }
@@ -114,8 +128,8 @@ static int read_csv(importer *m, const sph_group *group)
     }
     if (status) return sph_error_set(&m->error, status, "%s", error.text);
     bracket(title, unit);
-    status = check_unit(m, wanted[k].field, unit);
     m->n = n; /* the same for all: a row without one is an error */
+    status = convert(m, k, unit);
   }
   return status;
 }
@@ -131,7 +145,7 @@ static int copy(importer *m, const sph_table *table, int k)
   m->value[k] = SPH_NEW(double, m->n, "particles of a file", &m->error);
   if (!m->value[k]) return SPH_ERR_MEMORY;
   for (long i = 0; i < m->n; i++) m->value[k][i] = f->data[i * f->columns + wanted[k].component];
-  return check_unit(m, f->name, f->unit);
+  return convert(m, k, f->unit);
 }
 
 /* The mass that a header gives all particles of the part. */

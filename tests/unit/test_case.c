@@ -14,11 +14,11 @@
 #include <math.h>
 
 #include "case_schema.h"
-#include "case_unit.h"
 #include "case_value.h"
 #include "controller.h"
 #include "linear.h"
 #include "memory.h"
+#include "si_unit.h"
 #include "sphode.h"
 
 /* ---- units and expressions */
@@ -32,7 +32,7 @@ static void units_have_their_size_and_dimension(void **state)
 {
   static const struct {
     const char *text;
-    double value, power[SPH_CASE_BASES]; /* SI; kg, m, s, K, mol */
+    double value, power[SPH_SI_BASES]; /* SI; kg, m, s, K, mol */
   } cases[] = {
       {"9.81 m/s^2", 9.81, {0, 1, -2}},
       {"0.5 mm", 0.5e-3, {0, 1, 0}},
@@ -75,7 +75,7 @@ static void units_have_their_size_and_dimension(void **state)
       fail_msg("%s: %s", cases[k].text, v.problem);
     if (!(fabs(v.value - cases[k].value) <= 1e-14 * fabs(cases[k].value)))
       fail_msg("%s: %.17g, expected %.17g", cases[k].text, v.value, cases[k].value);
-    for (int b = 0; b < SPH_CASE_BASES; b++)
+    for (int b = 0; b < SPH_SI_BASES; b++)
       if (v.power[b] != cases[k].power[b])
         fail_msg("%s: power %g of base %d, expected %g", cases[k].text, v.power[b], b,
                  cases[k].power[b]);

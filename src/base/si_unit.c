@@ -1,4 +1,4 @@
-#include "case_unit.h"
+#include "si_unit.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -10,7 +10,7 @@
 
 static const struct {
   const char *name;
-  sph_case_unit unit;
+  sph_si_unit unit;
 } known[] = {
     {"kg", {1, {1, 0, 0}}},        {"g", {1e-3, {1, 0, 0}}},
     {"m", {1, {0, 1, 0}}},         {"km", {1e3, {0, 1, 0}}},
@@ -32,7 +32,7 @@ static const struct {
     {"mol", {1, {0, 0, 0, 0, 1}}}, {"deg", {0.017453292519943295, {0}}},
 };
 
-static const sph_case_unit *find(const char *word, size_t length)
+static const sph_si_unit *find(const char *word, size_t length)
 {
   for (size_t k = 0; k < sizeof known / sizeof *known; k++)
     if (strlen(known[k].name) == length && !memcmp(known[k].name, word, length))
@@ -40,9 +40,9 @@ static const sph_case_unit *find(const char *word, size_t length)
   return NULL;
 }
 
-int sph_case_unit_known(const char *word, size_t length) { return find(word, length) != NULL; }
+int sph_si_unit_known(const char *word, size_t length) { return find(word, length) != NULL; }
 
-const char *sph_case_unit_nearest(const char *word, char *text, size_t size)
+const char *sph_si_unit_nearest(const char *word, char *text, size_t size)
 {
   sph_words w = {.wanted = word};
   size_t letters = strlen(word);
@@ -67,10 +67,10 @@ static size_t word_length(const char *text)
 static size_t spaces(const char *text) { return strspn(text, " \t"); }
 
 /* One unit with its power, "s^2", times sign; the characters taken. */
-static size_t factor(const char *text, double sign, sph_case_unit *unit)
+static size_t factor(const char *text, double sign, sph_si_unit *unit)
 {
   size_t n = word_length(text);
-  const sph_case_unit *one = find(text, n);
+  const sph_si_unit *one = find(text, n);
   if (!one || text[n] == '(') return 0;
   double power = 1;
   if (text[n] == '^') {
@@ -82,14 +82,14 @@ static size_t factor(const char *text, double sign, sph_case_unit *unit)
   }
   double times = pow(one->factor, power);
   unit->factor = sign > 0 ? unit->factor * times : unit->factor / times;
-  for (int b = 0; b < SPH_CASE_BASES; b++) unit->power[b] += sign * power * one->power[b];
+  for (int b = 0; b < SPH_SI_BASES; b++) unit->power[b] += sign * power * one->power[b];
   return n;
 }
 
-size_t sph_case_unit_parse(const char *text, int (*is_name)(void *ctx, const char *word, size_t),
-                           void *ctx, sph_case_unit *unit)
+size_t sph_si_unit_parse(const char *text, int (*is_name)(void *ctx, const char *word, size_t),
+                         void *ctx, sph_si_unit *unit)
 {
-  *unit = (sph_case_unit){.factor = 1};
+  *unit = (sph_si_unit){.factor = 1};
   size_t start = text[0] == '/' ? 1 + spaces(text + 1) : 0; /* "1/s" */
   if (start && is_name && is_name(ctx, text + start, word_length(text + start))) return 0;
   size_t taken = factor(text + start, start ? -1 : 1, unit);
@@ -118,25 +118,25 @@ static void add(char *text, size_t size, const char *name, double power)
 static int same(const double *a, const double *b)
 {
   int equal = 1;
-  for (int k = 0; k < SPH_CASE_BASES; k++) equal = equal && a[k] == b[k];
+  for (int k = 0; k < SPH_SI_BASES; k++) equal = equal && a[k] == b[k];
   return equal;
 }
 
-void sph_case_unit_write(const double power[SPH_CASE_BASES], char *text, size_t size)
+void sph_si_unit_write(const double power[SPH_SI_BASES], char *text, size_t size)
 {
   static const char *const base[] = {"kg", "m", "s", "K", "mol"};
   text[0] = 0;
   for (size_t k = 0; k < sizeof known / sizeof *known; k++) { /* Pa, N, J, W before kg/m/s^2 */
-    const sph_case_unit *unit = &known[k].unit;
+    const sph_si_unit *unit = &known[k].unit;
     if (unit->factor == 1 && same(unit->power, power) && power[0] == 1) {
       snprintf(text, size, "%s", known[k].name);
       return;
     }
   }
-  for (int b = 0; b < SPH_CASE_BASES; b++)
+  for (int b = 0; b < SPH_SI_BASES; b++)
     if (power[b] > 0) add(text, size, base[b], power[b]);
   if (!text[0]) snprintf(text, size, "1");
-  for (int b = 0; b < SPH_CASE_BASES; b++) {
+  for (int b = 0; b < SPH_SI_BASES; b++) {
     size_t n = strlen(text);
     if (power[b] == -1) snprintf(text + n, size - n, "/%s", base[b]);
     if (power[b] < 0 && power[b] != -1)
