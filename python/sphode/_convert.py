@@ -1,9 +1,10 @@
 """Python values as arguments of C: str, sequences, dicts, None."""
+import re
 import weakref
 
 import numpy
 
-from ._library import ffi
+from ._library import declarations_path, ffi, lib
 
 # What a C value points to lives as long as the value does.
 _kept = weakref.WeakKeyDictionary()
@@ -84,13 +85,37 @@ def struct(name, /, **members):
     return keep(made, *held)
 
 
+def _argument(function, k, value, ctype, held):
+    """Argument k of a function, whose name a mistake tells."""
+    made = to_c(value, ctype, held)
+    if ctype.kind == "primitive":
+        try:
+            ffi.new(ffi.getctype(ctype, "*"), made)
+        except (TypeError, OverflowError) as problem:
+            raise type(problem)(f"{_argument_name(function, k)}: {problem}") from None
+    return made
+
+
+def _argument_name(function, k):
+    """"sph_eos_tait, c0", as the declarations have it."""
+    for name in dir(lib):
+        if name.startswith("sph_") and getattr(lib, name) == function:
+            with open(declarations_path, encoding="utf-8") as file:
+                found = re.search(rf"\b{name}\(([^()]*)\)", file.read())
+            names = found[1].split(",") if found else []
+            if k < len(names):
+                return f"{name}, {re.split(r'[^A-Za-z0-9_]+', names[k].strip())[-1]}"
+            return f"{name}, argument {k + 1}"
+    return f"argument {k + 1}"
+
+
 def call(function, *values):
     """function(*values) of the library, each value as its argument wants it."""
     wanted, held = ffi.typeof(function).args, []
     if len(values) > len(wanted):
         raise TypeError(f"{len(values)} arguments; wanted {len(wanted)}: "
                         f"{', '.join(t.cname for t in wanted)}")
-    given = [to_c(v, t, held) for v, t in zip(values, wanted)]
+    given = [_argument(function, k, v, t, held) for k, (v, t) in enumerate(zip(values, wanted))]
     for t in wanted[len(values):]:
         if t.kind != "pointer":
             raise TypeError(f"{len(values)} arguments; wanted {len(wanted)}: "

@@ -17,7 +17,7 @@ class Simulation:
 
     Keywords are the members of sph_sim_def: dim, dx (needed), kernel, h_over_dx, threads, periodic,
     origin, length, speed, skin, search, isa.  The first failure raises Error at once, and every use
-    after it raises it again.
+    after it raises it again: right is a new one.
     """
 
     def __init__(self, **definition):
@@ -30,6 +30,7 @@ class Simulation:
         self.pointer = ffi.gc(pointer, lib.sph_sim_free)
         self._held, self._caught, self._moment = [], [], Moment()
         self._written, self._progress, self._own = False, None, Caught()
+        self._failed = False
         self._caught.append(self._own)
         after_step = weakref.WeakMethod(self._after_step)  # no cycle: freed once nobody refers to it
         callback = self._own.guarded("int(void *, sph_sim *)", lambda *_: after_step()(), 1)
@@ -49,7 +50,11 @@ class Simulation:
             caught.again()
         status = lib.sph_sim_status(self.pointer) or status
         if status < 0:
-            raise Error(text_of(lib.sph_sim_error(self.pointer)), status)
+            text = text_of(lib.sph_sim_error(self.pointer))
+            if self._failed:
+                text = f"this simulation failed before, and does nothing more; make a new one: {text}"
+            self._failed = True
+            raise Error(text, status)
 
     def _moved(self, why):
         self._moment.end(why)
@@ -114,6 +119,9 @@ class Simulation:
     def add(self, *things):
         """Terms (sphode.term.*, sphode.body) and outputs (sphode.output.*)."""
         for thing in things:
+            if not isinstance(thing, ffi.CData):
+                raise TypeError(f"{thing!r}: wanted a term (sphode.term.*, sphode.body) or an output "
+                                "(sphode.output.*)")
             value = thing[0] if ffi.typeof(thing).kind == "pointer" else thing
             kind = ffi.typeof(value).cname
             if kind not in ("sph_term", "sph_output"):

@@ -1,5 +1,6 @@
 /* Where a case looks: monitors, probes and events far from all particles see nothing. */
 #include <math.h>
+#include <string.h>
 
 #include "case_warning.h"
 #include "sphode/case.h"
@@ -92,6 +93,60 @@ static void look_at_event(sph_case_finder *f, const sph_sim *sim, const box *b,
   look_at_place(f, sim, b, event, "its front, at", x, d, d + 1);
 }
 
+/* Dust, which holds nothing, has no pressure. */
+static int holds(const sph_group *group)
+{
+  return !sph_group_eos(group) || !sph_group_eos(group)->dust;
+}
+
+/* A liquid that is given the pressure of a column at rest, with nothing to stand on. */
+static void look_at_column(sph_case_finder *f, const sph_sim *sim, const sph_group *group,
+                           const sph_case_node *column)
+{
+  const int dim = sph_sim_dim(sim);
+  const char last[2] = {"xyz"[dim - 1]};
+  const int up = get_text(column, "axis", last)[0] - 'x';
+  double low[3], high[3], beneath = -INFINITY;
+  const sph_group *other;
+  for (int d = 0; d < dim; d++) {
+    const double *x = sph_group_read(group, "position", d);
+    low[d] = INFINITY, high[d] = -INFINITY;
+    for (long i = 0; i < sph_group_count(group); i++)
+      low[d] = fmin(low[d], x[i]), high[d] = fmax(high[d], x[i]);
+  }
+  if (sph_sim_periodic(sim, up, NULL, NULL)) return;
+  for (int k = 0; (other = sph_sim_group_get(sim, k)); k++) {
+    if (other == group || !holds(other)) continue;
+    for (long i = 0; i < sph_group_count(other); i++) {
+      int under = sph_group_read(other, "position", up)[i] < low[up];
+      for (int d = 0; under && d < dim; d++) {
+        const double x = sph_group_read(other, "position", d)[i];
+        under = d == up || (x >= low[d] && x <= high[d]);
+      }
+      if (under) beneath = fmax(beneath, sph_group_read(other, "position", up)[i]);
+    }
+  }
+  const double gap = (low[up] - beneath) / sph_sim_dx(sim);
+  if (gap > 2.9 && isfinite(gap)) /* less is told by the simulation */
+    sph_case_warning_found(
+        f, column,
+        "nothing holds this pressure: the particles beneath %s are %.3g m (%.3g dx) "
+        "away",
+        sph_group_name(group), gap * sph_sim_dx(sim), gap);
+}
+
+static void look_at_columns(sph_case_finder *f, const sph_sim *sim)
+{
+  const sph_case_node *groups = child_of(f->c->root, "groups");
+  for (const sph_case_node *g = groups->first; g; g = g->next)
+    if (!strcmp(get_text(child_of(g, "boundary"), "model", ""), "mirror")) return; /* planes */
+  for (const sph_case_node *g = groups->first; g; g = g->next) {
+    const sph_case_node *column = child_of(child_of(g, "initial"), "hydrostatic");
+    const sph_group *group = sph_sim_group(sim, g->key);
+    if (column && group && sph_group_count(group) > 0) look_at_column(f, sim, group, column);
+  }
+}
+
 int sph_case_warning_places(const sph_case *c, const sph_sim *sim, int k, char *text, size_t size)
 {
   sph_case_finder f = {.c = c, .wanted = k, .text = text, .size = size};
@@ -107,5 +162,6 @@ int sph_case_warning_places(const sph_case *c, const sph_sim *sim, int k, char *
     look_at_probe(&f, sim, &b, p);
   for (const sph_case_node *e = events ? events->first : NULL; e; e = e->next)
     look_at_event(&f, sim, &b, e);
+  if (sph_sim_time(sim) == 0) look_at_columns(&f, sim);
   return f.found > k;
 }

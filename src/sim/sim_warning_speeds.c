@@ -7,6 +7,7 @@
 #include "sim_warning.h"
 
 static const double MACH = 0.1, WEIGHT = 0.01, START = 0.03, ROUNDING = 0.03; /* of lattices, too */
+static const double STIFF = 100; /* times the largest speed: ten times the steps */
 
 /* Largest speed of a fluid's particles in the state shown. */
 static double moving(const sph_sim *sim, const sph_group *fluid)
@@ -113,6 +114,23 @@ static void find_mach(sph_finder *f, const sph_sim *sim, const sph_group *fluid)
                           fluid->name, fall, fall / c0, c0, MACH, fall / MACH);
 }
 
+/* One liquid that only gravity moves: its sound speed is often that of the real one. */
+static void find_stiff(sph_finder *f, const sph_sim *sim, const sph_group *fluid)
+{
+  const double c0 = fluid->eos.c0, fall = sqrt(2 * head(sim, NULL));
+  const char *wall = "";
+  int fluids = 0;
+  for (int g = 0; g < sim->groups; g++) fluids += !sim->group[g]->wall;
+  if (fluids > 1 || !(fall > 0) || sim->terms.called > 0) return;
+  const double most = fmax(fmax(fall, moving(sim, fluid)), walls(sim, c0, &wall));
+  if (c0 <= STIFF * most) return;
+  sph_sim_warning_found(f,
+                        "%s: sound speed %.4g m/s is %.3g times the largest speed, about %.3g m/s; "
+                        "where sound itself is not looked at, right is 10 times, %.3g m/s, with "
+                        "1/%.0f of the steps",
+                        fluid->name, c0, c0 / most, most, most / MACH, c0 / (most / MACH));
+}
+
 static void find_pressure(sph_finder *f, const sph_sim *sim, const sph_group *fluid)
 {
   const double c0 = fluid->eos.c0, weight = head(sim, fluid) / (c0 * c0);
@@ -138,6 +156,7 @@ void sph_sim_warning_speeds(sph_finder *f, const sph_sim *sim)
     const sph_eos *eos = &fluid->eos;
     if (fluid->wall || eos->dust || eos->thermal || !(eos->rho0 > 0 && eos->c0 > 0)) continue;
     find_mach(f, sim, fluid);
+    find_stiff(f, sim, fluid);
     find_pressure(f, sim, fluid);
   }
 }

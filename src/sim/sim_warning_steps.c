@@ -4,7 +4,7 @@
 
 #include "sim_warning.h"
 
-static const double FAR = 10, DAMPING = 5; /* times the acoustic limit */
+static const double FAR = 5, DAMPING = 5; /* times the acoustic limit */
 
 /* Viscosity, conduction, drag where they are explicit. */
 static void find_in_limits(sph_finder *f, const sph_sim *sim)

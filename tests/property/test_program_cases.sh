@@ -128,6 +128,10 @@ warns "alpha_min: does nothing without a switch" terms.viscosity-artificial.alph
 warns "water has a viscosity, but there is no viscosity-laminar" "groups.water.viscosity=1 mPa s"
 [[ $(grep -c "^warning" out) == 1 ]] || good=1 # once
 warns "water has a conductivity, but there is no conduction" "groups.water.conductivity=1"
+warns "water: sound speed 1480 m/s is 610 times the largest speed, about 2.43 m/s; .* right is 10 times, 24.3 m/s, with 1/61 of the steps" c=1480
+warns "viscosity-laminar bounds steps to 1/7 of h/c" terms.viscosity-laminar= "groups.water.viscosity=500 Pa s"
+warns "hydrostatic: nothing holds this pressure: the particles beneath water are 0.115 m (7.67 dx) away" \
+  "groups.tank.shapes=[layers: {lower: [0, -0.1 m], upper: [5*H, 3*H], open: [y+]}]"
 warns "heat_flux: does nothing without the term conduction" "groups.tank.boundary={model: mirror, heat_flux: 1 W/m^2}"
 warns "wall tank has a temperature, but there is no conduction" "groups.tank.boundary={temperature: 300 K}"
 warns "linear: does nothing without an imex: method" integrator.linear=klu

@@ -236,6 +236,12 @@ def mistakes_are_told():
     assert "ideal_gas" in str(raised(AttributeError, lambda: sphode.eos.ideal))
     raised(ValueError, sim.box, "more", (0,), (1, 1), 1000)
     raised(TypeError, term.gravity, 1, 2)
+    assert "gamma" in str(raised(TypeError, sphode.eos.tait, 1000, 30, "a")) and "c0" in str(
+        raised(TypeError, sphode.eos.tait, 1000, "a", 7))
+    assert "3: wanted a term" in str(raised(TypeError, sim.add, 3))
+    assert "rk4" in str(raised(sphode.Error, sim.integrator, "rk4"))
+    assert "failed before" in str(raised(sphode.Error, sim.integrator, "leapfrog"))
+    sim, water = column()
     with open("bad.yml", "w") as file:
         file.write("dimension: 2\nspacing: 1 s\n")
     error = raised(sphode.Error, sphode.Case, "bad.yml")
