@@ -19,7 +19,8 @@ extern "C" {
  *                   snapshots; other data are passed over.  Needs a library built with Expat
  *                   (SPH_ERR_UNBUILT)
  *
- * in SI units: a unit of another name is an error.  Without a mass it is rho0 dx^dim, without a
+ * in SI units, or in those that stand there, as x [mm], which are converted; one of another
+ * quantity is an error.  Without a mass it is rho0 dx^dim, without a
  * density rho0, without a velocity 0.  The energy (u) is taken by fluids whose equation of state
  * has one; other fields follow from these.  Positions need not be a lattice, but dx apart or so. */
 typedef struct sph_import_def {
