@@ -136,7 +136,8 @@ static void describe(sph_sim *sim, sph_error *failure)
     if (sim->suspect.known) {
       say_particle(sim, failure, total);
       say_terms(sim, failure, ydot);
-      say(failure, ". What helps: %s", remedy(sim));
+      if (!strstr(failure->text, "; right is ")) /* else it has said so */
+        say(failure, ". What helps: %s", remedy(sim));
     }
   }
   if (ydot) N_VDestroy(ydot);
