@@ -37,7 +37,7 @@ static const command commands[] = {
      "Exit status: 0 done, 1 failed or stopped from its page, 2 bad usage, 3 done, but a\n"
      "comparison misses its bar, 4 stopped by run.time_limit or before a queue's end, 130 or\n"
      "143 by Ctrl-C or SIGTERM (outputs and summary are whole where it was stopped, too, and\n"
-     "restart goes on).\n"},
+     "restart goes on; a second Ctrl-C, a second or more later, ends it without).\n"},
     {"restart", "DIR", "sUtqblw", sph_prog_restart,
      "go on with a run that was killed, stopped or is to go further",
      "  From the last good checkpoint, with the case that it holds; files go on where they were.\n"

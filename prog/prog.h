@@ -109,12 +109,14 @@ typedef struct prog_progress {
   double queue;                   /* when the queue ends the job [s]; 0: it does not tell */
   double stepped, longest;        /* wall time of the last step, longest step so far [s] */
   double from;                    /* where the run began, or goes on [s] */
+  double pairs;                   /* there */
   int quiet, live;                /* live: one line that is written over */
   struct prog_live *page;         /* prog_live.h; NULL: none */
   long bound_by[SPH_BOUND_COUNT]; /* at the last line */
 } prog_progress;
 
-/* From the first call on SIGINT and SIGTERM are noted; once: a second one ends the program. */
+/* From the first call on SIGINT and SIGTERM are noted; once: a second Ctrl-C, a second or more
+ * later, ends the program. */
 void sph_prog_progress_catch(int once);
 /* Reports a run that is to go to time `end`; SIGINT and SIGTERM stop it. */
 void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int quiet);

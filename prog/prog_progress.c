@@ -14,9 +14,24 @@
 /* Before a queue ends the job: for the checkpoint, the summary and pictures [s]. */
 static const double QUEUE_MARGIN = 60;
 
-static volatile sig_atomic_t stopped_by;
+static volatile sig_atomic_t stopped_by, patient;
+static struct timespec interrupted; /* by the first Ctrl-C */
 
-static void on_signal(int number) { stopped_by = number; }
+/* Queues and timeout send SIGTERM twice, to the program and to its group: only a person's second
+ * Ctrl-C, a second or more behind the first, ends the program without a checkpoint. */
+static void on_signal(int number)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const double since = (double)(now.tv_sec - interrupted.tv_sec) +
+                       1e-9 * (double)(now.tv_nsec - interrupted.tv_nsec);
+  if (number == SIGINT && stopped_by == SIGINT && !patient && since >= 1) {
+    signal(number, SIG_DFL);
+    raise(number);
+  }
+  if (number == SIGINT && stopped_by != SIGINT) interrupted = now;
+  stopped_by = number;
+}
 
 double sph_prog_progress_now(void)
 {
@@ -62,7 +77,7 @@ static void tell(prog_progress *p, sph_sim *sim)
            "t %.4g/%.4g s %3.0f %%  step %ld, dt %.3g s (%s)  %ld particles  %.3g Mpairs/s  "
            "%.0f:%02.0f left",
            t, p->end, 100 * t / p->end, s.step.steps, s.step.dt_last, bound(p, sim, &s.step),
-           fluids(sim), used > 0 ? 1e-6 * s.pairs / used : 0, floor(left / 60),
+           fluids(sim), used > 0 ? 1e-6 * (s.pairs - p->pairs) / used : 0, floor(left / 60),
            floor(fmod(left, 60)));
   if (p->live)
     fprintf(stderr, "\r\033[K%.*s", columns() - 1, line);
@@ -128,8 +143,9 @@ static double queue_left(void)
 void sph_prog_progress_catch(int once)
 {
   static int caught;
-  struct sigaction action = {.sa_handler = on_signal, .sa_flags = once ? SA_RESETHAND : 0};
+  struct sigaction action = {.sa_handler = on_signal};
   if (caught++) return;
+  patient = !once;
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);
@@ -145,8 +161,11 @@ void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int qui
   p->stepped = p->start;
   const double left = queue_left();
   p->queue = left < INFINITY ? p->start + left : 0;
+  sph_sim_stats before;
+  sph_sim_get_stats(sim, &before);
+  p->pairs = before.pairs;
   p->tenth = floor(10 * p->from / end);
-  sph_prog_progress_catch(1); /* a second Ctrl-C ends the program at once */
+  sph_prog_progress_catch(1);
   sph_sim_set_progress(sim, progress, p);
 }
 

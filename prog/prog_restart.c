@@ -95,6 +95,20 @@ static void set_command(prog_job *j, const sph_checkpoint_info *info)
 
 static int has_ended(const prog_job *j) { return !faccessat(j->held, "summary.json", F_OK, 0); }
 
+/* There is nothing left to do. */
+static int tell_end(const prog_job *j, const char *path, double t)
+{
+  if (j->o->until)
+    return sph_prog_error(PROG_FAILED,
+                          "--until %s: the run came to t = %.6g s (%s); right is a later time, as "
+                          "--until %.3gs",
+                          j->o->until, t, path, 2 * t);
+  return sph_prog_error(PROG_FAILED,
+                        "%s is at t = %.6g s, its end is %.6g s; --until TIME goes on to a later "
+                        "time, as --until %.3gs",
+                        path, t, j->end, 2 * t);
+}
+
 /* -1: the file is of no use, told; else an exit status. */
 static int go_on_from(prog_job *j, const char *path)
 {
@@ -114,8 +128,7 @@ static int go_on_from(prog_job *j, const char *path)
   if (!status) status = set_end(j, &info);
   /* One that came to its end may have been killed before it was concluded. */
   if (!status && (info.time > j->end || (info.time == j->end && has_ended(j))))
-    status = sph_prog_error(PROG_FAILED, "%s is at t = %.6g s, its end is %.6g s; --until TIME %s",
-                            path, info.time, j->end, "goes on, as 0.1s");
+    status = tell_end(j, path, info.time);
   if (!status) set_command(j, &info);
   if (!status) status = sph_prog_run_build(j);
   if (!status) status = sph_prog_run_outputs(j);

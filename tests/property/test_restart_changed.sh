@@ -99,4 +99,38 @@ for set in alpha=0.2 terms.viscosity-artificial.alpha=0.2 terms.viscosity-artifi
   taken "$set"
 done
 
+run 1 "$sphode" restart first -q --until 0.1s && grep -q -- "--until 0.1s: the run came to t = 0.2 s (first/checkpoint_.*); right is a later time, as --until 0.4s" err
+ok $? "--until a time that is over"
+
+# ---- a source that ends
+
+sed '/^  pressure:/a\  body-force: {acceleration: [0 m/s^2, "1 m/s^2*sqrt(0.3 - t/(0.1 s))"]}' block.yml >root.yml
+run 1 "$sphode" run root.yml -o root -q &&
+  grep -q "root.yml:15:41: body-force: acceleration '1 m/s^2\*sqrt(0.3 - t/(0.1 s))' is nan at t = 0.03[0-9]* s, x = .* m, y = .* m (water); right is one that is finite" err && ! grep -q "What helps" err &&
+  [[ -s root/failure.csv ]]
+ok $? "an acceleration that becomes not a number is told with its place, and leaves a failure.csv"
+
+# ---- signals
+
+stopped() { # SIGNAL, exit status: sent three times within a step
+  local job tries=0 status
+  rm -rf long
+  "$sphode" run block.yml -q -o long --set run.end=100s --set spacing=1.5mm --set checkpoint.steps=100000 2>err >out &
+  job=$!
+  until [[ $(wc -l 2>/dev/null <long/series.csv) -gt 1 || $((tries++)) -gt 6000 ]]; do sleep 0.01; done 2>/dev/null
+  kill -"$1" $job
+  sleep 0.01 # less than a step takes, else they come as one
+  kill -"$1" $job 2>/dev/null
+  sleep 0.01
+  kill -"$1" $job 2>/dev/null
+  wait $job
+  status=$?
+  [[ $status == "$2" && -n $(newest long) ]] && run 1 "$sphode" restart long -q --until 1us && grep -q "right is a later time" err
+  ok $? "$1, three times within a step: behind a checkpoint"
+}
+set -m # else SIGINT is ignored in the background
+stopped TERM 143
+stopped INT 130
+set +m
+
 echo 1..$count
