@@ -319,7 +319,7 @@ static void full_disk_leaves_whole_rows(void **state)
 static void full_device_tells_why(void **state)
 {
   (void)state;
-  if (access("/dev/full", W_OK) != 0) skip();
+  if (access("/dev/full", W_OK) != 0) return;
   sph_error error = {0};
   sph_sim *sim = tank(0, 0);
   assert_int_equal(symlink("/dev/full", in("series.csv")), 0);
