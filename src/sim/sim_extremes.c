@@ -23,6 +23,7 @@ void sph_sim_extremes_start(sph_sim *sim)
       }
     }
   }
+  sph_sim_extremes_step(sim); /* the start counts, too */
 }
 
 void sph_sim_extremes_see(sph_sim *sim, const sph_group *group, double speed, double least,
