@@ -118,6 +118,8 @@ typedef struct prog_progress {
 /* From the first call on SIGINT and SIGTERM are noted; once: a second Ctrl-C, a second or more
  * later, ends the program. */
 void sph_prog_progress_catch(int once);
+/* All is written that a run goes on from: signals end the program again, if `once`. */
+void sph_prog_progress_release(void);
 /* Reports a run that is to go to time `end`; SIGINT and SIGTERM stop it. */
 void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int quiet);
 void sph_prog_progress_end(prog_progress *p);

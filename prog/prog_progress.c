@@ -151,6 +151,13 @@ void sph_prog_progress_catch(int once)
   sigaction(SIGTERM, &action, NULL);
 }
 
+void sph_prog_progress_release(void)
+{
+  if (patient) return;
+  signal(SIGINT, SIG_DFL);
+  signal(SIGTERM, SIG_DFL);
+}
+
 void sph_prog_progress_start(prog_progress *p, sph_sim *sim, double end, int quiet)
 {
   *p = (prog_progress){.end = end,

@@ -209,6 +209,7 @@ static int conclude(prog_job *j)
   print_summary(j);
   printf("results      %s\n", j->directory);
   fflush(stdout);
+  sph_prog_progress_release(); /* pictures can be drawn again */
   sph_prog_plot_case(j->c, j->directory, j->comparisons);
   return PROG_OK;
 }

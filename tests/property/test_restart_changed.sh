@@ -132,5 +132,13 @@ set -m # else SIGINT is ignored in the background
 stopped TERM 143
 stopped INT 130
 set +m
+mkdir bin && printf '#!/bin/sh\ntouch %s/drawing\nexec sleep 5\n' "$PWD" >bin/gnuplot && chmod +x bin/gnuplot
+PATH=$PWD/bin:$PATH "$sphode" run block.yml -o drawn >out 2>err &
+job=$! tries=0
+until [[ -e drawing || $((tries++)) -gt 1000 ]]; do sleep 0.01; done
+kill -TERM $job
+wait $job 2>/dev/null
+[[ $? == 143 && -s drawn/summary.json ]]
+ok $? "once all is written, a signal ends the drawing of pictures"
 
 echo 1..$count
