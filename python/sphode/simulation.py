@@ -48,12 +48,13 @@ class Simulation:
         """Raises what a callback raised, or the first failure of the simulation."""
         for caught in self._caught:
             caught.again()
-        status = lib.sph_sim_status(self.pointer) or status
+        own = lib.sph_sim_status(self.pointer)
+        status = own or status
         if status < 0:
             text = text_of(lib.sph_sim_error(self.pointer))
             if self._failed:
                 text = f"this simulation failed before, and does nothing more; make a new one: {text}"
-            self._failed = True
+            self._failed = own < 0
             raise Error(text, status)
 
     def _moved(self, why):
