@@ -567,7 +567,7 @@ int sph_sim_prepare(sph_sim *sim)
   if (!status) status = make_integrator(sim);
   sim->prepared = sim->derived = !status;
   sim->start = sim->time;
-  sph_sim_extremes_start(sim);
+  if (!status) sph_sim_extremes_start(sim);
   sph_sim_keep_start(sim);
   sim->revision++;
   return status;

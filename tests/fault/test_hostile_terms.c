@@ -476,7 +476,7 @@ static void warnings_of_steps(void **state)
       sph_group *group = sph_group_box(s.sim, dust ? "dust" : "water", (double[]){0, 0},
                                        (double[]){1, 1}, dust ? 1 : 1000);
       sph_group_set_eos(group, dust ? sph_eos_dust() : sph_eos_tait(1000, 20, 7));
-      if (!dust) sph_group_set_viscosity(group, 0.125 * 0.15 * 1000 * 20 * (k ? 40 : 9));
+      if (!dust) sph_group_set_viscosity(group, 0.125 * 0.15 * 1000 * 20 * (k ? 40 : 4));
     }
     sph_sim_add_term(s.sim, sph_term_continuity());
     sph_sim_add_term(s.sim, sph_term_pressure());

@@ -179,9 +179,9 @@ static void each_is_told(void **state)
       {HEAD PIECE XYZ "<PointData><DataArray type=\"Float32\" Name=\"density\">one</DataArray>"
                       "</PointData>" TAIL,
        "density (Float32): number 0 of 1"},
-      {HEAD PIECE XYZ "<PointData><DataArray type=\"Float32\" Name=\"density [g/cm^3]\">1"
+      {HEAD PIECE XYZ "<PointData><DataArray type=\"Float32\" Name=\"density [g/cm]\">1"
                       "</DataArray></PointData>" TAIL,
-       "density in g/cm^3; right is kg/m^3"},
+       "density in g/cm; right is kg/m^3"},
       {HEAD PIECE XYZ "<PointData><DataArray type=\"Float16\" Name=\"density\">1</DataArray>"
                       "</PointData>" TAIL,
        "type=\"Float16\"; Float64, Float32"},
