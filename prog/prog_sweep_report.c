@@ -245,11 +245,12 @@ static int draw(const sweep *s, const sweep_run *m)
                                   .y = p == 1 ? "order 1" : "order 2",
                                   .label = p == 1 ? "orders 1 and 2" : "",
                                   .colour = GREY};
-  for (int c = 0, colour = 1; c < m->compared; c++) {
+  for (int c = 0, colour = 0; c < m->compared; c++) {
     if (!drawn(s, c)) continue;
     name_column(m, c, column[c]);
+    colour++;
     curve[n++] =
-        (sph_plot_curve){.csv = csv, .x = x, .y = column[c], .points = 2, .colour = colour++};
+        (sph_plot_curve){.csv = csv, .x = x, .y = column[c], .points = 2, .colour = colour};
   }
   bounds(s, m, lo, hi);
   const sph_plot_def def = {.title = slash ? slash + 1 : s->o->what,
