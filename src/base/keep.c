@@ -65,7 +65,8 @@ void sph_keep_leave(sph_keep *keep)
 void sph_keep_tell(sph_keep *keep, const char *format, ...)
 {
   va_list arguments;
-  const size_t used = keep->told ? strlen(keep->told) : 0;
+  if (!keep->told) return;
+  const size_t used = strlen(keep->told);
   if (used + 2 >= keep->told_size) return;
   if (used) memcpy(keep->told + used, "\n", 2);
   char *to = keep->told + strlen(keep->told);

@@ -40,6 +40,13 @@ static const sph_si_unit *find(const char *word, size_t length)
   return NULL;
 }
 
+int sph_si_unit_same(const double a[SPH_SI_BASES], const double b[SPH_SI_BASES])
+{
+  int same = 1;
+  for (int k = 0; k < SPH_SI_BASES; k++) same &= a[k] == b[k];
+  return same;
+}
+
 int sph_si_unit_known(const char *word, size_t length) { return find(word, length) != NULL; }
 
 const char *sph_si_unit_nearest(const char *word, char *text, size_t size)

@@ -15,6 +15,8 @@ typedef struct sph_si_unit {
  * word is no name of the user's. */
 size_t sph_si_unit_parse(const char *text, int (*is_name)(void *ctx, const char *word, size_t),
                          void *ctx, sph_si_unit *unit);
+/* Are the exponents the same? */
+int sph_si_unit_same(const double a[SPH_SI_BASES], const double b[SPH_SI_BASES]);
 /* Whether a word is a unit, by itself. */
 int sph_si_unit_known(const char *word, size_t length);
 /* "did you mean m^3? " of a word that is no unit, or "", in text[size]. */

@@ -89,7 +89,7 @@ static int became_another(const walk *w, const char *word, size_t n)
 {
   char name[60];
   const sph_case_name *a = find_name(w->before, word, n), *b = find_name(w->now, word, n);
-  if (a && b) return a->value != b->value || memcmp(a->power, b->power, sizeof a->power) != 0;
+  if (a && b) return a->value != b->value || !sph_si_unit_same(a->power, b->power);
   if (n >= sizeof name) return 0;
   snprintf(name, sizeof name, "%.*s", (int)n, word);
   return !same_tree(child_of(child_of(w->before->root, "tables"), name),

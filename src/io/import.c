@@ -60,8 +60,7 @@ static int convert(importer *m, int k, const char *unit)
   const char *field = wanted[k].field, *right = unit_of(m, field);
   sph_si_unit from, to;
   if (!*unit || !strcmp(unit, right)) return SPH_OK;
-  if (parse_unit(unit, &from) && parse_unit(right, &to) &&
-      !memcmp(from.power, to.power, sizeof to.power)) {
+  if (parse_unit(unit, &from) && parse_unit(right, &to) && sph_si_unit_same(from.power, to.power)) {
     for (long i = 0; i < m->n; i++) m->value[k][i] *= from.factor / to.factor;
     return SPH_OK;
   }

@@ -65,7 +65,8 @@ static int choose_directions(plane *p)
     if (extent(p, d) <= extent(p, least)) least = d;
   p->across = least == 0 ? 1 : 0;
   p->up = least == 2 ? 1 : 2;
-  if (extent(p, p->across) > 0 && extent(p, p->up) > 0) return SPH_OK;
+  if (p->of[p->across] && p->of[p->up] && extent(p, p->across) > 0 && extent(p, p->up) > 0)
+    return SPH_OK;
   return sph_error_set(p->error, SPH_ERR_ARGUMENT,
                        "%s: its places lie on a line; curves draw it (sphode plot --table --series "
                        "--over)",
@@ -75,7 +76,8 @@ static int choose_directions(plane *p)
 /* What a place stands for: steps along a row and to the next one. */
 static void measure_cell(plane *p)
 {
-  const double *x[2] = {p->of[p->across], p->of[p->up]};
+  const double *x[2] = {p->of[p->across], p->of[p->up]}; /* choose_directions found them */
+  if (!x[0] || !x[1]) return;
   const double first[2] = {x[0][1] - x[0][0], x[1][1] - x[1][0]};
   long next = 2;
   while (next < p->places &&

@@ -30,7 +30,7 @@ int sph_sim_work(sph_sim *sim, double *work)
 {
   double power = 0;
   if (work) *work = sim ? sim->work.sum : 0;
-  if (!sph_sim_data_ok(sim)) return sph_sim_status(sim);
+  if (!sim || !sph_sim_data_ok(sim)) return sph_sim_status(sim);
   if (!work) return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "work of walls: no place for it (NULL)");
   sph_work *w = &sim->work;
   if (!sph_sim_work_moves(sim) || (w->known && sim->time <= w->t)) return SPH_OK;
