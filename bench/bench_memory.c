@@ -8,20 +8,10 @@
 #endif
 
 #include "bench.h"
+#include "resident.h"
 #include "sim_data.h"
 
 enum { STEPS = 3 };
-
-/* Own pages [B]; 0 where the system does not tell. */
-static double resident(void)
-{
-  char line[200];
-  double kilobytes = 0;
-  FILE *file = fopen("/proc/self/status", "r");
-  while (file && fgets(line, sizeof line, file)) sscanf(line, "RssAnon: %lf", &kilobytes);
-  if (file) fclose(file);
-  return 1024 * kilobytes;
-}
 
 static sph_sim *make(long across, const char *method)
 {

@@ -42,7 +42,7 @@ static int read_columns(plane *p)
   const char *open = status ? NULL : strchr(title, '[');
   if (open) snprintf(p->unit, sizeof p->unit, "%.*s", (int)strcspn(open + 1, "]"), open + 1);
   while (!status && p->places < p->rows && p->of[TIME][p->places] == p->of[TIME][0]) p->places++;
-  if (status || (p->rows > 0 && p->rows % p->places == 0)) return status;
+  if (status || (p->places > 0 && p->rows % p->places == 0)) return status;
   return sph_error_set(p->error, SPH_ERR_FILE,
                        "%s: %ld rows, %ld at the first time: not the same "
                        "places at each",

@@ -1,13 +1,8 @@
 #!/usr/bin/env bash
 # Free surfaces as cases: standing wave, rotating square, dam breaks with impact.  Coarse ones here, with bars that a coarse run
 # meets; SPHODE_TEST_LONG=1: those of the case files, too.
-sphode=${SPHODE:-$BUILDDIR/sphode}
-stage=$(mktemp -d) || exit 99
-trap 'rm -rf "$stage"' EXIT
-cd "$stage" || exit 99
-export OMP_WAIT_POLICY=passive
+source "$SRCDIR/tests/tap.sh"
 
-count=0
 meets() { # what, case, options...: the run meets its bars
   local what=$1 case=$2 status
   shift 2

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "../../bench/resident.h"
 #include "memory.h"
 
 enum { LINE = 64, LARGE = 1 << 20 };
@@ -51,17 +52,6 @@ static void growth(void **state)
     free(was);
     sph_memory_free(at);
   }
-}
-
-/* The program's own pages [B]; 0 where the system does not tell. */
-static double resident(void)
-{
-  char line[200];
-  double kilobytes = 0;
-  FILE *file = fopen("/proc/self/status", "r");
-  while (file && fgets(line, sizeof line, file)) sscanf(line, "RssAnon: %lf", &kilobytes);
-  if (file) fclose(file);
-  return 1024 * kilobytes;
 }
 
 static void untouched(void **state)
