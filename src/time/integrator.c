@@ -286,6 +286,7 @@ static int accept(sph_integrator *it, const sph_attempt *a)
 /* The attempt failed: back to the last good state, with half of its step.  0: try again. */
 static int retry(sph_integrator *it, const sph_attempt *a, int halvings, int status)
 {
+  if (it->stepper->undo) it->stepper->undo(it);
   N_VScale(1, it->before, it->y);
   if (status < 0) return sph_integrator_fail(it, status, "it failed"); /* unless it was recorded */
   it->bound = SPH_BOUND_RETRY;

@@ -30,6 +30,8 @@ typedef struct sph_stepper {
   int (*interpolate)(sph_integrator *it, double t, N_Vector at);
   /* What it remembers between steps, once it was started; when reading y is there. */
   int (*keep)(sph_integrator *it, sph_keep *keep);
+  /* Before `reject`, while y is still what the attempt made of it; NULL: nothing. */
+  void (*undo)(sph_integrator *it);
 } sph_stepper;
 
 enum { SPH_SCHEME_NAME_MAX = 64 };
@@ -82,5 +84,9 @@ extern const sph_stepper sph_ode_stepper, sph_integrator_erk, sph_integrator_ime
 extern const sph_scheme sph_integrator_leapfrog, sph_integrator_dkd,
     sph_integrator_predictor_corrector, sph_integrator_midpoint, sph_integrator_verlet_dual,
     sph_integrator_symplectic;
+
+/* Where its f1 has taken the place of f0: f0 once more (to rounding), from an attempt that was
+ * kicked or only predicted. */
+void sph_integrator_leapfrog_undo(const sph_ode *ode, int kicked);
 
 #endif

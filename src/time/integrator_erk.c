@@ -54,4 +54,5 @@ const sph_stepper sph_integrator_erk = {
     sph_integrator_arkode_reject,
     sph_integrator_arkode_interpolate,
     sph_integrator_arkode_keep,
+    NULL,
 };

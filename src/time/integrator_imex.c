@@ -156,4 +156,5 @@ const sph_stepper sph_integrator_imex = {
     sph_integrator_arkode_reject,
     sph_integrator_arkode_interpolate,
     sph_integrator_arkode_keep,
+    NULL,
 };

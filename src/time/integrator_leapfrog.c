@@ -2,7 +2,8 @@
  *   drift     r* = r0 + h (v0 + h/2 a0) + h d0
  *   predict   v* = v0 + h a0,  q* = q0 + h R0                 (q: density, energy, ...)
  *   evaluate  f1 = f(t1, r*, v*, q*)
- *   kick      v1 = v0 + h/2 (a0 + a1),  q1 = q0 + h/2 (R0 + R1),  r1 = r* + h/2 (d1 - d0)
+ *   kick      v1 = (v0 + v* + h a1)/2,  q1 = (q0 + q* + h R1)/2,  r1 = r* + h/2 (d1 - d0)
+ * so that v1 = v0 + h/2 (a0 + a1), and without drift f1 may take the place of f0 (src/time/ode.c).
  * v0 + h/2 a0 is the half-step velocity of the staggered leapfrog; d = dr/dt - v, zero without
  * drift.  Second order also for forces of v and q, because these are predicted at t1; with
  * half-step values it would be first order.  Symplectic for forces of positions alone and constant
@@ -47,11 +48,21 @@ static int step(void *ctx, sph_ode *ode)
   for (int k = 0; k < ode->segments; k++) {
     long o = ode->segment[k].offset;
     if (!sph_scheme_velocity(ode, k))
-      sph_scheme_kick(ode, ode->segment[k].n, ode->h, ode->y + o, ode->y0 + o, ode->f0 + o,
-                      ode->f1 + o);
+      sph_scheme_mean(ode, ode->segment[k].n, ode->h, ode->y + o, ode->y0 + o, ode->f1 + o);
   }
   sph_scheme_undrift(ode);
   return SPH_OK;
+}
+
+void sph_integrator_leapfrog_undo(const sph_ode *ode, int kicked)
+{
+  for (int k = 0; k < ode->segments; k++) {
+    const long o = ode->segment[k].offset;
+    double *f = ode->f1 + o;
+    const double *y = ode->y + o, *y0 = ode->y0 + o;
+    for (long i = 0; !sph_scheme_velocity(ode, k) && i < ode->segment[k].n; i++)
+      f[i] = kicked ? 2 * (y[i] - y0[i]) / ode->h - f[i] : (y[i] - y0[i]) / ode->h;
+  }
 }
 
 const sph_scheme sph_integrator_leapfrog = {

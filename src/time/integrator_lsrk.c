@@ -107,6 +107,7 @@ const sph_stepper sph_integrator_lsrk = {
     sph_integrator_arkode_reject,
     sph_integrator_arkode_interpolate,
     sph_integrator_arkode_keep,
+    NULL,
 };
 #else
 const sph_stepper sph_integrator_lsrk = {0};

@@ -237,5 +237,5 @@ static int keep(sph_integrator *it, sph_keep *keep)
 }
 
 const sph_stepper sph_integrator_mri = {
-    create, release, start, attempt, sph_integrator_arkode_reject, interpolate, keep,
+    create, release, start, attempt, sph_integrator_arkode_reject, interpolate, keep, NULL,
 };

@@ -166,6 +166,7 @@ const sph_stepper sph_integrator_sprk = {
     sph_integrator_arkode_reject,
     interpolate,
     sph_integrator_arkode_keep,
+    NULL,
 };
 
 #else

@@ -12,12 +12,20 @@
 typedef struct stepping {
   sph_ode ode; /* first: the scheme has a pointer to it */
   sph_integrator *it;
-  N_Vector f0, f1; /* rates at the start and at the end of the last attempt */
+  N_Vector f0, f1; /* rates at the start and at the end of the last attempt; leapfrog without drift
+                      needs one vector for both */
   N_Vector work[SPH_SCHEME_WORK_MAX];
   double *data[SPH_SCHEME_WORK_MAX]; /* theirs */
   int ended;                         /* f1 belongs to it->time once the attempt is accepted */
   int status;                        /* the first failed evaluation of this attempt */
 } stepping;
+
+/* Leapfrog where nothing but velocities moves positions: its rates at the end take the place of
+ * those at the start, and it does not read those of positions. */
+static int in_place(const sph_integrator *it)
+{
+  return !it->problem.drift && it->scheme->step == sph_integrator_leapfrog.step;
+}
 
 static int create(sph_integrator *it, SUNContext context)
 {
@@ -26,7 +34,7 @@ static int create(sph_integrator *it, SUNContext context)
   if (!own) return SPH_ERR_MEMORY;
   own->it = it;
   own->f0 = sph_nvector_clone(it->y, "rates", it->problem.error);
-  own->f1 = sph_nvector_clone(it->y, "rates", it->problem.error);
+  own->f1 = in_place(it) ? own->f0 : sph_nvector_clone(it->y, "rates", it->problem.error);
   if (!own->f0 || !own->f1) return SPH_ERR_MEMORY;
   for (int k = 0; k < it->scheme->work; k++) {
     own->work[k] = sph_nvector_clone(it->y, "work arrays", it->problem.error);
@@ -44,18 +52,17 @@ static void release(sph_integrator *it)
   stepping *own = it->own;
   if (!own) return;
   if (own->f0) N_VDestroy(own->f0);
-  if (own->f1) N_VDestroy(own->f1);
+  if (own->f1 && own->f1 != own->f0) N_VDestroy(own->f1);
   for (int k = 0; k < SPH_SCHEME_WORK_MAX; k++)
     if (own->work[k]) N_VDestroy(own->work[k]);
   sph_memory_free(own);
 }
 
-/* Rates that the scheme reads: leapfrog moves positions by velocities alone. */
+/* Rates that the scheme reads. */
 static int rates(sph_integrator *it, double t, N_Vector y, N_Vector ydot)
 {
   const sph_problem *problem = &it->problem;
-  if (problem->drift || !problem->rhs_still || it->scheme->step != sph_integrator_leapfrog.step)
-    return sph_integrator_rhs(it, t, y, ydot);
+  if (!problem->rhs_still || !in_place(it)) return sph_integrator_rhs(it, t, y, ydot);
   it->stats.rhs_evaluations++;
   return it->rhs_status = problem->rhs_still(t, y, ydot, problem->ctx);
 }
@@ -87,7 +94,7 @@ int sph_ode_rhs(sph_ode *ode, double t, const double *y, double *f)
   stepping *own = (stepping *)ode; /* whose first member it is */
   N_Vector at = vector_of(own, y), rate = vector_of(own, f);
   int status = SPH_OK;
-  if (!at || !rate || at == rate || rate == own->f0 || rate == own->it->before)
+  if (!at || !rate || at == rate || (rate == own->f0 && rate != own->f1) || rate == own->it->before)
     status = sph_error_set(own->it->problem.error, SPH_ERR_ARGUMENT,
                            "%s: sph_ode_rhs takes two different arrays of the sph_ode, "
                            "and writes to y, f1 or work",
@@ -133,6 +140,12 @@ static int attempt(sph_integrator *it, sph_attempt *a, double t_stop)
   return status;
 }
 
+static void undo(sph_integrator *it)
+{
+  const stepping *own = it->own;
+  if (own->f0 == own->f1) sph_integrator_leapfrog_undo(&own->ode, own->ended);
+}
+
 static int reject(sph_integrator *it)
 {
   ((stepping *)it->own)->ended = 0;
@@ -140,14 +153,15 @@ static int reject(sph_integrator *it)
 }
 
 /* Cubic Hermite interpolation, s = (t - t0)/h, of states y and slopes f at both ends:
- *   y0 + s (y1 - y0) + s (s - 1) ((1 - 2 s)(y1 - y0) + h ((s - 1) f0 + s f1)) */
+ *   y0 + s (y1 - y0) + s (s - 1) ((1 - 2 s)(y1 - y0) + h ((s - 1) f0 + s f1)).
+ * Where f1 took the place of f0 (f0 = f1), the step was y1 - y0 = h/2 (f0 + f1). */
 static void hermite(double *at, double s, double h, long n, const double *y0, const double *y1,
                     const double *f0, const double *f1)
 {
   for (long i = 0; i < n; i++) {
-    double rise = y1[i] - y0[i];
+    const double rise = y1[i] - y0[i], first = f0 == f1 ? 2 * rise / h - f1[i] : f0[i];
     at[i] =
-        y0[i] + s * rise + s * (s - 1) * ((1 - 2 * s) * rise + h * ((s - 1) * f0[i] + s * f1[i]));
+        y0[i] + s * rise + s * (s - 1) * ((1 - 2 * s) * rise + h * ((s - 1) * first + s * f1[i]));
   }
 }
 
@@ -187,4 +201,5 @@ static int keep(sph_integrator *it, sph_keep *keep)
   return status;
 }
 
-const sph_stepper sph_ode_stepper = {create, release, start, attempt, reject, interpolate, keep};
+const sph_stepper sph_ode_stepper = {create, release,     start, attempt,
+                                     reject, interpolate, keep,  undo};

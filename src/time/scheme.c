@@ -24,6 +24,13 @@ void sph_scheme_kick(const sph_ode *ode, long n, double h, double *y, const doub
   for (long i = 0; i < n; i++) y[i] = y0[i] + h / 2 * (f0[i] + f1[i]);
 }
 
+void sph_scheme_mean(const sph_ode *ode, long n, double h, double *y, const double *y0,
+                     const double *f)
+{
+#pragma omp parallel for simd num_threads(ode->threads) schedule(static) if (n >= PARALLEL_MIN)
+  for (long i = 0; i < n; i++) y[i] = 0.5 * (y0[i] + y[i] + h * f[i]);
+}
+
 void sph_scheme_slip(const sph_ode *ode, long n, double h, double *y, const double *y0,
                      const double *f, const double *v)
 {

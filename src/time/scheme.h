@@ -15,6 +15,9 @@ void sph_scheme_advance(const sph_ode *ode, long n, double h, double *y, const d
 /* y = y0 + h/2 (f0 + f1) */
 void sph_scheme_kick(const sph_ode *ode, long n, double h, double *y, const double *y0,
                      const double *f0, const double *f1);
+/* y = (y0 + y + h f)/2 */
+void sph_scheme_mean(const sph_ode *ode, long n, double h, double *y, const double *y0,
+                     const double *f);
 /* y = y0 + h (f - v); y0 may be y */
 void sph_scheme_slip(const sph_ode *ode, long n, double h, double *y, const double *y0,
                      const double *f, const double *v);

@@ -182,6 +182,30 @@ static void dense_output_keeps_the_order(void **state)
   }
 }
 
+/* Rates are those of the ends of steps, the start of the next being the end of the last. */
+static void dense_output_has_no_corners(void **state)
+{
+  (void)state;
+  const double h = 0.02, e = h / 100; /* q'' is 4 at most */
+  ode o;
+  ode_made(&o);
+  ode_start(&o, &(sph_integrator_def){.method = "leapfrog", .dt_fixed = h});
+  N_Vector at = N_VClone(o.y);
+  for (int k = 1; k < 50; k += 2) {
+    double slope[2], end;
+    assert_int_equal(sph_integrator_step(o.it, 2), SPH_OK);
+    end = sph_nvector_data(o.y)[ODE_Q];
+    assert_int_equal(sph_integrator_interpolate(o.it, k * h - e, at), SPH_OK);
+    slope[0] = (end - sph_nvector_data(at)[ODE_Q]) / e;
+    assert_int_equal(sph_integrator_step(o.it, 2), SPH_OK);
+    assert_int_equal(sph_integrator_interpolate(o.it, k * h + e, at), SPH_OK);
+    slope[1] = (sph_nvector_data(at)[ODE_Q] - end) / e;
+    assert_true(fabs(slope[1] - slope[0]) < 8 * e);
+  }
+  N_VDestroy(at);
+  ode_end(&o);
+}
+
 /* A central force of position alone: the energy of the leapfrog orbit comes back, for hundreds
  * of turns. */
 static void leapfrog_keeps_the_energy(void **state)
@@ -472,6 +496,44 @@ static void inadmissible_states_are_stepped_anew(void **state)
   }
 }
 
+/* Steps up to t, at most `most`, each as long as h says, where it does; their lengths go there. */
+static void steps_of(ode *o, double t, int most, const double *given, double *h)
+{
+  for (int k = 0; k < most && sph_integrator_time(o->it) < t; k++) {
+    if (given) o->limit[SPH_BOUND_USER] = given[k + 1]; /* asked for where step k ends */
+    assert_int_equal(sph_integrator_step(o->it, t), SPH_OK);
+    if (h) h[k] = sph_integrator_stats(o->it)->dt_last;
+  }
+}
+
+/* What an attempt that did not count has overwritten is there again. */
+static void repeated_steps_are_those_of_the_shorter_length(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 2 * METHODS; k++) {
+    enum { MOST = 200 };
+    double h[MOST + 1] = {0};
+    ode o, other;
+    ode_made(&o);
+    o.limit[SPH_BOUND_USER] = 0.04;
+    if (k % 2) o.reject_above = 0.021;
+    o.fail_from = k % 2 ? 0 : 12;
+    o.fail_count = k % 2 ? 0 : 2;
+    ode_start(&o, &(sph_integrator_def){.method = method[k / 2], .tolerance = -1});
+    steps_of(&o, 1, MOST, NULL, h);
+    assert_true(sph_integrator_stats(o.it)->retries > 1);
+    ode_made(&other);
+    other.limit[SPH_BOUND_USER] = h[0];
+    ode_start(&other, &(sph_integrator_def){.method = method[k / 2], .tolerance = -1});
+    steps_of(&other, 1, MOST, h, NULL);
+    assert_int_equal(sph_integrator_stats(other.it)->retries, 0);
+    for (long i = 0; i < ODE_LENGTH; i++)
+      assert_true(fabs(sph_nvector_data(o.y)[i] - sph_nvector_data(other.y)[i]) < 1e-13);
+    ode_end(&o);
+    ode_end(&other);
+  }
+}
+
 /* y is changed between steps, then a reset: the same as a new start from there. */
 static void reset_is_a_new_start(void **state)
 {
@@ -597,6 +659,7 @@ int main(void)
       cmocka_unit_test(steps_that_vary_keep_the_order),
       cmocka_unit_test(rows_tell_the_truth),
       cmocka_unit_test(dense_output_keeps_the_order),
+      cmocka_unit_test(dense_output_has_no_corners),
       cmocka_unit_test(leapfrog_keeps_the_energy),
       cmocka_unit_test(only_heun_amplifies_oscillations),
       cmocka_unit_test(verlet_dual_forgets_every_40_steps),
@@ -609,6 +672,7 @@ int main(void)
       cmocka_unit_test(a_failed_evaluation_is_repeated),
       cmocka_unit_test(lasting_failure_stops_at_the_last_good_state),
       cmocka_unit_test(inadmissible_states_are_stepped_anew),
+      cmocka_unit_test(repeated_steps_are_those_of_the_shorter_length),
       cmocka_unit_test(reset_is_a_new_start),
       cmocka_unit_test(misuse_is_refused_with_a_reason),
       cmocka_unit_test(two_threads_do_not_meet),
