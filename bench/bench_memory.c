@@ -42,11 +42,11 @@ static double sorted_copy(const sph_sim *sim)
   return 8 * (double)(sorted->stride + sim->dim) * (double)sorted->room;
 }
 
-/* Fields that are not integrated, but u, which nobody writes, and the numbers of the particles. */
+/* Fields that are not integrated, but u, which nobody writes. */
 static double fields(const sph_sim *sim)
 {
   const sph_group *group = sim->group[0];
-  double arrays = 1;
+  double arrays = group->id != NULL;
   for (int f = 0; f < SPH_FIELDS; f++)
     for (int c = 0; f != SPH_ENERGY && c < 3; c++) arrays += group->own[f][c] != NULL;
   return 8 * arrays * (double)group->n;

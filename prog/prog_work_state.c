@@ -62,7 +62,7 @@ static place *places(const sph_sim *sim, long particles)
   long n = 0;
   for (int k = 0; at && (group = sph_sim_group_get(sim, k)); k++)
     for (long i = 0; is_fluid(group) && i < sph_group_count(group) && n < particles; i++)
-      at[n++] = (place){sph_group_ids(group)[i], group, i};
+      at[n++] = (place){sph_group_id(group, i), group, i};
   if (at) qsort(at, (size_t)n, sizeof *at, by_id);
   return at;
 }

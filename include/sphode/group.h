@@ -88,7 +88,9 @@ SPH_API const double *sph_group_rate(const sph_group *group, const char *field, 
 /* The scale that errors of an integrated field are measured in, that of the error weights: h, V,
  * rho0 (V/c0)^2, V^2/2, ... in the field's unit; 0: no such field, a wall, or not evaluated yet. */
 SPH_API double sph_group_scale(const sph_group *group, const char *field);
-/* Particle numbers, unique in the simulation, constant: [count]. */
+/* The number of particle i, unique in the simulation, constant; -1: no such particle.  Those of all
+ * as an array, [count], which is made and kept once it is asked for; NULL: no memory, recorded. */
+SPH_API long sph_group_id(const sph_group *group, long i);
 SPH_API const long *sph_group_ids(const sph_group *group);
 
 /* Sets density (and so pressure) of a fluid at rest under gravity g [m/s^2] below the free surface

@@ -283,6 +283,7 @@ class Group:
     @property
     def ids(self):
         ids = lib.sph_group_ids(self.pointer)
+        self.sim._checked()
         return Field(f"{self.name}.ids", ffi.cast("long *", ids), len(self), self.sim._moment)
 
     def array(self, field):

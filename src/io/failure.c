@@ -128,7 +128,7 @@ static void add_row(table *t, long r)
   const sph_field_info *info;
   if (row)
     sph_text_add(&t->text, "%s,%ld,%.6g", sim->group[row->group]->name,
-                 sph_group_ids(sim->group[row->group])[row->i], row->distance);
+                 sph_group_id(sim->group[row->group], row->i), row->distance);
   else
     sph_text_add(&t->text, "group,id,distance [m]");
   for (int k = 0; (info = sph_field_get(k)); k++) add_field(t, info, row);

@@ -139,11 +139,8 @@ static void write_numbers(writer *w, hid_t where, int part)
   sph_h5_array(&w->h5, where, "SmoothingLength", stored(w), H5T_NATIVE_DOUBLE, n, 0, h);
   write_unit(w, where, "SmoothingLength", "m");
   long *id = w->buffer;
-  for (int k = 0; (group = next_group(w, part, &k)); k++) {
-    long count = sph_group_count(group);
-    memcpy(id, sph_group_ids(group), (size_t)count * sizeof *id);
-    id += count;
-  }
+  for (int k = 0; (group = next_group(w, part, &k)); k++)
+    for (long i = 0; i < sph_group_count(group); i++) *id++ = sph_group_id(group, i);
   sph_h5_array(&w->h5, where, "ParticleIDs", H5T_STD_I64LE, H5T_NATIVE_LONG, n, 0, w->buffer);
   int *index = w->buffer;
   for (int k = 0; (group = next_group(w, part, &k)); k++)

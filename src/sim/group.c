@@ -203,7 +203,17 @@ int sph_group_thermal(const sph_group *group)
   return group && group->has_eos && group->eos.thermal;
 }
 
-const long *sph_group_ids(const sph_group *group) { return group ? group->id : NULL; }
+const long *sph_group_ids(const sph_group *group)
+{
+  if (!group) return NULL;
+  sph_group *own = group->sim->group[group->index];
+  return sph_group_data_ids(own, &own->sim->error);
+}
+
+long sph_group_id(const sph_group *group, long i)
+{
+  return group && i >= 0 && i < group->n ? sph_group_data_id(group, i) : -1;
+}
 
 /* ---- energies ---- */
 

@@ -44,7 +44,9 @@ static void add(sph_group *group, const double *x, double rho0)
   for (int q = 0; q < group->scalars; q++)
     group->own[SPH_SCALAR + q][0][i] = sim->terms.scalar[q].initial;
   group->rho0 = rho0;
-  group->id[i] = id;
+  if (i == 0) group->first_id = id;
+  if (group->first_id + i != id && !sph_group_data_ids(group, &group->sim->error)) return;
+  if (group->id) group->id[i] = id;
   group->n++;
 }
 

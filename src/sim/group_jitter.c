@@ -33,8 +33,8 @@ void sph_group_jitter(sph_group *group, double fraction, unsigned long seed)
   group->loose |= fraction > 0;
   for (long i = 0; i < group->n; i++)
     for (int d = 0; d < group->dim; d++) {
-      double by =
-          fraction * group->sim->dx * uniform(seed, 3 * (uint64_t)group->id[i] + (uint64_t)d);
+      double by = fraction * group->sim->dx *
+                  uniform(seed, 3 * (uint64_t)sph_group_data_id(group, i) + (uint64_t)d);
       group->own[SPH_POSITION][d][i] += by;
       if (group->wall) group->start[d][i] += by;
     }

@@ -87,7 +87,7 @@ static void say_particle(const sph_sim *sim, sph_error *failure, N_Vector total)
   const sph_view view =
       sph_group_data_view(group, sph_nvector_data(sim->shown), sph_nvector_data(total));
   say(failure, "; in the last good state, t = %.9g s, particle %ld of %s (id %ld) is at ",
-      sim->time, i, group->name, group->id[i]);
+      sim->time, i, group->name, sph_group_data_id(group, i));
   say_vector(sim, failure, view.x, i);
   say(failure, " m, velocity ");
   say_vector(sim, failure, view.v, i);

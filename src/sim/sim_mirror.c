@@ -245,7 +245,7 @@ static int append(sph_sim *sim, const sph_ghost *ghost, const double x[3])
   if (!status) status = sph_sim_prepare_room(sim, home->index);
   if (status) return status;
   for (int d = 0; d < sim->dim && d < 3; d++) sorted->built[d][home->n] = x[d];
-  home->id[home->n] = sim->group[ghost->group]->id[ghost->parent];
+  home->id[home->n] = sph_group_data_id(sim->group[ghost->group], ghost->parent);
   home->ghost[home->n++] = *ghost;
   return SPH_OK;
 }

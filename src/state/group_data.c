@@ -58,8 +58,10 @@ int sph_group_data_reserve(struct sph_group *group, long count, sph_error *error
   if (count <= group->capacity) return SPH_OK;
   long wanted = count > group->capacity * 3 / 2 ? count : group->capacity * 3 / 2;
   size_t capacity = (size_t)(wanted + 7) / 8 * 8, old = (size_t)group->n;
-  int status =
-      sph_memory_grow((void **)&group->id, old, capacity, sizeof(long), "particle numbers", error);
+  int status = SPH_OK;
+  if (group->id || group->model == SPH_MODEL_MIRROR)
+    status = sph_memory_grow((void **)&group->id, old, capacity, sizeof(long), "particle numbers",
+                             error);
   for (int field = 0; field < SPH_FIELDS; field++)
     for (int c = 0; status == SPH_OK && c < sph_group_data_components(group->dim, field); c++)
       if (always(group, field) || group->own[field][c])
@@ -126,6 +128,19 @@ void sph_group_data_move(struct sph_group *group, double *y)
       sph_memory_free(group->own[field][c]);
       group->own[field][c] = NULL;
     }
+}
+
+long sph_group_data_id(const struct sph_group *group, long i)
+{
+  return group->id ? group->id[i] : group->first_id + i;
+}
+
+long *sph_group_data_ids(struct sph_group *group, sph_error *error)
+{
+  if (group->id) return group->id;
+  long *id = SPH_NEW(long, group->capacity, "particle numbers", error);
+  for (long i = 0; id && i < group->n; i++) id[i] = group->first_id + i;
+  return group->id = id;
 }
 
 double *sph_group_data_component(const struct sph_group *group, const double *y, int field, int c)

@@ -48,8 +48,8 @@ struct sph_group {
   int wall;  /* 0: fluid */
   int index; /* in the simulation, also its set number in the neighbour search */
   int dim;
-  long n, capacity; /* capacity is a multiple of 8 */
-  long *id;         /* [capacity] */
+  long n, capacity;   /* capacity is a multiple of 8 */
+  long first_id, *id; /* [capacity]; NULL: first_id + i */
   /* Walls: positions at displacement zero; ghosts of a mirror: the velocity that viscous terms see;
    * [capacity]; NULL for fluids. */
   double *start[3];
@@ -107,6 +107,9 @@ int sph_group_data_integrated(const struct sph_group *group, int field);
 void sph_group_data_place(struct sph_group *group, sph_layout *layout);
 /* Moves its integrated fields into the ODE vector y: copies, then lets go of its own arrays. */
 void sph_group_data_move(struct sph_group *group, double *y);
+/* Number of particle i; all of them as an array, from then on kept: NULL: no memory, recorded. */
+long sph_group_data_id(const struct sph_group *group, long i);
+long *sph_group_data_ids(struct sph_group *group, sph_error *error);
 double *sph_group_data_component(const struct sph_group *group, const double *y, int field, int c);
 sph_view sph_group_data_view(const struct sph_group *group, const double *y, double *ydot);
 

@@ -605,6 +605,7 @@ static void null_simulation(void **state)
   assert_null(sph_group_write(NULL, "position", 0));
   assert_null(sph_group_rate(NULL, "position", 0));
   assert_null(sph_group_ids(NULL));
+  assert_int_equal(sph_group_id(NULL, 0), -1);
   assert_int_equal(sph_group_count(NULL), 0);
   sph_balance balance;
   sph_sim_stats stats;

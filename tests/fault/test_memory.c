@@ -237,6 +237,7 @@ static int attach_and_run(sph_sim *sim, const variant *v)
   int status = sph_sim_run(sim, 0.01);
   if (status == SPH_OK) status = sph_sim_step(sim);
   if (status == SPH_OK) status = sph_sim_evaluate(sim);
+  if (status == SPH_OK && !sph_group_ids(water)) status = sph_sim_status(sim);
   return status;
 }
 

@@ -199,9 +199,35 @@ static int clean(void **state)
   return folder_remove(folder);
 }
 
+/* In the order in which they were added, whatever group they went to; an array once asked for. */
+static void particles_are_numbered(void **state)
+{
+  (void)state;
+  const long of_a[] = {0, 2, 3, 4, 5}, of_b[] = {1, 6, 7};
+  const double at[] = {0, 1, 2};
+  sph_sim *sim = sph_sim_create(&(sph_sim_def){.dim = 1, .dx = 1});
+  sph_group *a = sph_group_create(sim, "a", "fluid"), *b = sph_group_create(sim, "b", "fluid");
+  sph_group_add_points(a, 1, (const double *const[]){at}, 1);
+  sph_group_add_points(b, 1, (const double *const[]){at}, 1);
+  assert_int_equal(sph_group_id(b, 0), 1);
+  assert_memory_equal(sph_group_ids(b), of_b, sizeof *of_b);
+  sph_group_add_points(a, 3, (const double *const[]){at}, 1);
+  assert_int_equal(sph_group_id(a, 1), 2);
+  sph_group_add_points(a, 1, (const double *const[]){at}, 1);
+  sph_group_add_points(b, 2, (const double *const[]){at}, 1);
+  for (long i = 0; i < 5; i++) assert_int_equal(sph_group_id(a, i), of_a[i]);
+  for (long i = 0; i < 3; i++) assert_int_equal(sph_group_id(b, i), of_b[i]);
+  assert_memory_equal(sph_group_ids(a), of_a, sizeof of_a);
+  assert_int_equal(sph_group_id(a, 5), -1);
+  assert_int_equal(sph_group_id(a, -1), -1);
+  assert_int_equal(sph_sim_status(sim), SPH_OK);
+  sph_sim_free(sim);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(the_state_comes_back),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(particles_are_numbered),
+                                     cmocka_unit_test(the_state_comes_back),
                                      cmocka_unit_test(vtu_keeps_the_bits),
                                      cmocka_unit_test(table_by_hand), cmocka_unit_test(refused)};
   return cmocka_run_group_tests_name("import", tests, make, clean);

@@ -153,7 +153,7 @@ static void check_water(hid_t file, const sph_sim *sim)
     assert_memory_equal(one, sph_group_read(water, scalars[k][0], 0), sizeof one);
   }
   read_doubles(file, "/PartType0/ParticleIDs", one);
-  for (long i = 0; i < 200; i++) assert_true(one[i] == (double)sph_group_ids(water)[i]);
+  for (long i = 0; i < 200; i++) assert_true(one[i] == (double)sph_group_id(water, i));
 }
 
 static void snapshot_holds_the_state(void **state)
