@@ -48,7 +48,8 @@ static double pairs_of_block(const cloud *c, const sph_neighbors *nb, long b, in
   double pairs = 0;
   for (long r = list.first[b]; r < list.first[b + 1]; r++)
     for (long t = b * lanes; t < (b + 1) * lanes && t < c->n; t++)
-      for (long s = list.runs[r].start; s < list.runs[r].start + (long)list.runs[r].count; s++) {
+      for (long s = sph_run_start(list.runs[r]);
+           s < sph_run_start(list.runs[r]) + sph_run_count(list.runs[r]); s++) {
         double r2 = 0;
         for (int d = 0; d < c->dim; d++) {
           double step = c->x[d][order[t]] - c->x[d][order[s]];

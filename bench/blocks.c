@@ -60,7 +60,7 @@ int main(void)
   points(x, order, 0, N);
   points(x, order, block * LANES, LANES);
   for (long r = list.first[block]; r < list.first[block + 1]; r++)
-    points(x, order, list.runs[r].start, list.runs[r].count);
+    points(x, order, sph_run_start(list.runs[r]), sph_run_count(list.runs[r]));
   sph_neighbors_free(nb);
   return 0;
 }

@@ -35,12 +35,18 @@ typedef struct sph_neighbors_def {
   double length[3];             /* its lengths [m], at least 2 reach where periodic */
 } sph_neighbors_def;
 
-/* Runs of one block: targets first[b] .. first[b + 1] - 1 index runs[]. */
+/* Runs of one block: targets first[b] .. first[b + 1] - 1 index runs[].  Six bytes: of all that
+ * pairs need, lists are the most.  What is longer than a run can tell is several. */
 typedef struct sph_run {
-  int start;           /* first source, in the sorted order of the source set */
-  unsigned count : 24; /* how many consecutive ones, at least 1 */
-  unsigned image : 8;  /* index of the periodic shift to subtract from the target's position */
+  uint16_t low, high;       /* of the first source, in the sorted order of the source set */
+  uint16_t count_and_image; /* 11 bits, 5 bits */
 } sph_run;
+
+/* The first source; how many consecutive ones, at least 1; the index of the periodic shift to
+ * subtract from the target's position. */
+static inline long sph_run_start(sph_run run) { return (long)(run.low | (uint32_t)run.high << 16); }
+static inline long sph_run_count(sph_run run) { return run.count_and_image & 2047; }
+static inline int sph_run_image(sph_run run) { return run.count_and_image >> 11; }
 
 typedef struct sph_list {
   long blocks;         /* ceil(n_target / lanes) */

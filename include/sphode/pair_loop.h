@@ -67,9 +67,10 @@ BODY void sph_pair_loop(sph_pair_body *body, const sph_pair_task *t, long begin,
       const sph_run run = t->runs[r];
       vec i[SPH_PAIR_SLOTS], j[SPH_PAIR_SLOTS];
 #pragma GCC unroll 26
-      for (int s = 0; s < slots; s++) i[s] = s < dim ? home[s] - t->shift[run.image][s] : home[s];
-      const double *source = t->source + (long)run.start * t->source_stride;
-      const double *const end_of_run = source + (long)run.count * t->source_stride;
+      for (int s = 0; s < slots; s++)
+        i[s] = s < dim ? home[s] - t->shift[sph_run_image(run)][s] : home[s];
+      const double *source = t->source + sph_run_start(run) * t->source_stride;
+      const double *const end_of_run = source + sph_run_count(run) * t->source_stride;
       pair_prefetch(end_of_run, slots);
       do {
 #pragma GCC unroll 26

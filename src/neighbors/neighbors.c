@@ -224,8 +224,8 @@ static long collect_all(const sph_neighbors *nb, int target, int source, long t,
     n += collect(nb, target, source, t, m, 0, nb->set[source].n, to ? to + n : NULL);
   for (long r = list.blocks ? list.first[b] : 0; list.blocks && r < list.first[b + 1]; r++) {
     const sph_run run = list.runs[r];
-    n += collect(nb, target, source, t, run.image, run.start, run.start + (long)run.count,
-                 to ? to + n : NULL);
+    n += collect(nb, target, source, t, sph_run_image(run), sph_run_start(run),
+                 sph_run_start(run) + sph_run_count(run), to ? to + n : NULL);
   }
   return n;
 }

@@ -8,6 +8,7 @@
 
 enum {
   SPH_IMAGES_MAX = 27,
+  SPH_RUN_LONGEST = (1 << 11) - 1,
   SPH_STRETCHES = 512 /* that are asked for at once */
 };
 
@@ -56,6 +57,10 @@ typedef struct sph_neighbors_table {
   sph_neighbors_lister *list;
 } sph_neighbors_table;
 
+static inline sph_run sph_neighbors_run(long start, long count, int image)
+{
+  return (sph_run){(uint16_t)start, (uint16_t)(start >> 16), (uint16_t)(count | image << 11)};
+}
 /* Makes room for more runs; once it failed, runs->status stays. */
 int sph_neighbors_runs_reserve(sph_runs *runs, long more);
 /* Appends sources start .. start + count - 1: one run, or several where it is too long for one. */

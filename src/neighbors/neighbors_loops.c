@@ -214,7 +214,7 @@ BODY void test(int dim, int lanes, const sph_set *source, const probe *p, sph_st
   m->n = (int)(at - m->at);
 }
 
-/* Marks become runs; a run that goes on where the last one ended lengthens it. */
+/* Marks become runs; a run that goes on where the last one ended lengthens it, if it fits. */
 static void add_runs(marks *m, int image, sph_runs *out)
 {
   long n = m->n / 2;
@@ -223,11 +223,11 @@ static void add_runs(marks *m, int image, sph_runs *out)
   sph_run *last = out->run + out->n;
   int end = -1;
   for (const int *at = m->at; at < m->at + 2 * n; at += 2) {
-    int count = at[1] - at[0];
-    if (at[0] == end)
-      last[-1].count = (last[-1].count + (unsigned)count) & 0xffffff;
+    const long count = at[1] - at[0];
+    if (at[0] == end && sph_run_count(last[-1]) + count <= SPH_RUN_LONGEST)
+      last[-1] = sph_neighbors_run(sph_run_start(last[-1]), sph_run_count(last[-1]) + count, image);
     else
-      *last++ = (sph_run){at[0], (unsigned)count & 0xffffff, (unsigned)image & 255};
+      *last++ = sph_neighbors_run(at[0], count, image);
     end = at[1];
   }
   out->n = last - out->run;

@@ -1,8 +1,6 @@
 #include "memory.h"
 #include "neighbors_data.h"
 
-enum { LONGEST = (1 << 24) - 1 };
-
 int sph_neighbors_runs_reserve(sph_runs *runs, long more)
 {
   if (runs->n + more <= runs->room) return runs->status;
@@ -17,8 +15,8 @@ int sph_neighbors_runs_reserve(sph_runs *runs, long more)
 void sph_neighbors_runs_add(sph_runs *runs, long start, long count, int image)
 {
   while (count > 0 && !sph_neighbors_runs_reserve(runs, 1)) {
-    long part = count < LONGEST ? count : LONGEST;
-    runs->run[runs->n++] = (sph_run){(int)start, (unsigned)part & LONGEST, (unsigned)image & 255u};
+    const long part = count < SPH_RUN_LONGEST ? count : SPH_RUN_LONGEST;
+    runs->run[runs->n++] = sph_neighbors_run(start, part, image);
     start += part;
     count -= part;
   }

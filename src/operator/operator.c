@@ -149,7 +149,7 @@ static int reserve_rows(sph_operator *op, const sph_list *list, sph_error *error
   long most = 0;
   for (long b = 0; b < list->blocks; b++) {
     long n = 0;
-    for (long k = list->first[b]; k < list->first[b + 1]; k++) n += (long)list->runs[k].count;
+    for (long k = list->first[b]; k < list->first[b + 1]; k++) n += sph_run_count(list->runs[k]);
     most = n > most ? n : most;
   }
   most += SPH_ROW_PAD;

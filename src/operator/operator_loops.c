@@ -7,11 +7,11 @@ BODY void collect(int dim, const sph_row_task *t, long b, const double x[3], sph
   long n = 0;
   for (long k = t->first[b]; k < t->first[b + 1]; k++) {
     const sph_run run = t->runs[k];
-    const long end = run.start + (long)run.count;
-    for (long s = run.start; s < end; s++) {
+    const long end = sph_run_start(run) + sph_run_count(run);
+    for (long s = sph_run_start(run); s < end; s++) {
       double r2 = 0;
       for (int d = 0; d < dim; d++) {
-        double r = x[d] - t->shift[run.image][d] - t->x[d][s];
+        double r = x[d] - t->shift[sph_run_image(run)][d] - t->x[d][s];
         row->r[d][n] = r;
         r2 += r * r;
       }

@@ -12,11 +12,12 @@ BODY void mask_run(int dim, const sph_mask_task *k, long b, sph_run run, unsigne
                    const vec *home, unsigned char *mask)
 {
   const sph_pair_task *t = k->pairs;
-  const double *source = t->source + (long)run.start * t->source_stride;
-  const long itself = k->same && run.image == 0 ? b * SPH_LANES - run.start : -SPH_LANES;
+  const double *source = t->source + sph_run_start(run) * t->source_stride;
+  const long itself =
+      k->same && sph_run_image(run) == 0 ? b * SPH_LANES - sph_run_start(run) : -SPH_LANES;
   vec i[3];
-  for (int d = 0; d < dim; d++) i[d] = home[d] - t->shift[run.image][d];
-  for (long n = 0; n < (long)run.count; n++, source += t->source_stride) {
+  for (int d = 0; d < dim; d++) i[d] = home[d] - t->shift[sph_run_image(run)][d];
+  for (long n = 0; n < sph_run_count(run); n++, source += t->source_stride) {
     vec r2 = v_set(0);
     for (int d = 0; d < dim; d++) r2 += (i[d] - source[d]) * (i[d] - source[d]);
     unsigned bits = lanes & v_bits((vec_mask)(r2 < k->reach2));
@@ -33,7 +34,7 @@ BODY void mask_blocks(int dim, const sph_mask_task *k, long begin, long end)
     unsigned char *mask = k->mask + k->first[b];
     vec home[3];
     for (int d = 0; d < dim; d++) home[d] = v_gather(record + d, t->target_stride);
-    for (long r = t->first[b]; r < t->first[b + 1]; mask += t->runs[r++].count)
+    for (long r = t->first[b]; r < t->first[b + 1]; mask += sph_run_count(t->runs[r++]))
       mask_run(dim, k, b, t->runs[r], lanes_of(k, b), home, mask);
   }
 }

@@ -78,8 +78,8 @@ BODY void tangent_target(sph_pair_body *body, const sph_tangent_task *t, const v
   tangent_record(t->target + n * t->target_stride, t->target_d + n * t->target_stride, slots, home);
   for (long r = t->first[b]; r < t->first[b + 1]; r++) {
     const sph_run run = t->runs[r];
-    tangent_shift(home, t->shift[run.image], dim, slots, i);
-    for (long k = run.start; k < (long)run.start + (long)run.count; k++) {
+    tangent_shift(home, t->shift[sph_run_image(run)], dim, slots, i);
+    for (long k = sph_run_start(run); k < sph_run_start(run) + sph_run_count(run); k++) {
       const double *source = t->source + k * t->source_stride;
       if (tangent_distance2(dim, i, source) > t->reach2) continue;
       tangent_record(source, t->source_d + k * t->source_stride, slots, j);
@@ -133,8 +133,8 @@ BODY void transposed_target(sph_pair_body *body, const sph_tangent_task *t, cons
   transposed_record(t->target + n * t->target_stride, slots, home);
   for (long r = t->first[b]; r < t->first[b + 1]; r++) {
     const sph_run run = t->runs[r];
-    tangent_shift(home, t->shift[run.image], dim, slots, i);
-    for (long k = run.start; k < (long)run.start + (long)run.count; k++) {
+    tangent_shift(home, t->shift[sph_run_image(run)], dim, slots, i);
+    for (long k = sph_run_start(run); k < sph_run_start(run) + sph_run_count(run); k++) {
       const double *source = t->source + k * t->source_stride;
       if (tangent_distance2(dim, i, source) > t->reach2) continue;
       const int self = source == t->target + n * t->target_stride; /* moves with itself */

@@ -186,8 +186,8 @@ static double slopes(const packer *p)
     if (i >= p->n) continue;
     for (int d = 0; d < p->dim; d++) p->slope[d][i] = 0;
     for (long k = list.first[s]; k < list.first[s + 1]; k++)
-      for (unsigned m = 0; m < list.runs[k].count; m++)
-        add_pair(p, i, order[list.runs[k].start + (int)m]);
+      for (long m = 0; m < sph_run_count(list.runs[k]); m++)
+        add_pair(p, i, order[sph_run_start(list.runs[k]) + m]);
   }
   for (long i = 0; i < p->n; i++)
     for (int d = 0; d < p->dim; d++) sum += p->slope[d][i] * p->slope[d][i];

@@ -136,11 +136,11 @@ static int add_near(const sph_sim *sim, maker *m, int g, long n, int s, long bas
   if (b >= list.blocks) return SPH_OK;
   for (long r = list.first[b]; !status && r < list.first[b + 1]; r++) {
     const sph_run run = list.runs[r];
-    for (long k = run.start; !status && k < (long)run.start + (long)run.count; k++) {
+    for (long k = sph_run_start(run); !status && k < sph_run_start(run) + sph_run_count(run); k++) {
       const double *j = sim->sorted[s].record + k * sim->sorted[s].stride;
       double r2 = 0;
       for (int d = 0; d < sim->dim; d++) {
-        double x = i[d] - shift[run.image][d] - j[d];
+        double x = i[d] - shift[sph_run_image(run)][d] - j[d];
         r2 += x * x;
       }
       if (r2 <= reach2) status = maker_add(m, (int)base + order[k]);

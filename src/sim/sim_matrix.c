@@ -42,7 +42,7 @@ static int reserve_masks(sph_sim *sim, sph_masks *masks, sph_list list)
   for (long b = 0; b < list.blocks; b++) {
     masks->first[b + 1] = masks->first[b];
     for (long r = list.first[b]; r < list.first[b + 1]; r++)
-      masks->first[b + 1] += list.runs[r].count;
+      masks->first[b + 1] += sph_run_count(list.runs[r]);
   }
   long count = masks->first[list.blocks];
   if (count <= masks->room) return SPH_OK;
@@ -100,10 +100,10 @@ walk(const sph_sim *sim, const sph_pattern *pattern, int target, int source, vis
   for (long b = 0; b < list.blocks; b++) {
     const unsigned char *mask = masks->mask + masks->first[b];
     for (long r = list.first[b]; r < list.first[b + 1]; r++)
-      for (long n = 0; n < (long)list.runs[r].count; n++)
+      for (long n = 0; n < sph_run_count(list.runs[r]); n++)
         for (unsigned bits = *mask++; bits; bits &= bits - 1)
           each(pattern, pattern->base[target] + b * lanes + __builtin_ctz(bits),
-               (int)(pattern->base[source] + list.runs[r].start + n));
+               (int)(pattern->base[source] + sph_run_start(list.runs[r]) + n));
   }
 }
 

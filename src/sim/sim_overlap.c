@@ -52,9 +52,10 @@ sph_overlap sph_sim_overlap_find(const sph_sim *sim, sph_neighbors *search, int 
     const long i = order[b];
     double least = INFINITY;
     for (long r = list.first[b]; r < list.first[b + 1]; r++)
-      for (long s = 0; s < (long)list.runs[r].count; s++) {
-        const long j = sources[list.runs[r].start + s];
-        const int image = list.runs[r].image, itself = target == source && i == j && image == 0;
+      for (long s = 0; s < sph_run_count(list.runs[r]); s++) {
+        const long j = sources[sph_run_start(list.runs[r]) + s];
+        const int image = sph_run_image(list.runs[r]),
+                  itself = target == source && i == j && image == 0;
         if (!itself) least = fmin(least, distance(sim, search, target, i, source, j, image));
       }
     if (least < near ? !found.n || i < who : !found.n && least < found.least) who = i;

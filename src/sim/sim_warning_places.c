@@ -134,9 +134,9 @@ static int look_around(const sph_sim *sim, sph_neighbors *search, int g, ahead (
     const int *source = sph_neighbors_order(search, k), of[2] = {g, k};
     for (long b = 0; b < list.blocks; b++) /* a particle each: one lane */
       for (long r = list.first[b]; r < list.first[b + 1]; r++)
-        for (long s = 0; s < (long)list.runs[r].count; s++) {
-          const long who[2] = {order[b], source[list.runs[r].start + s]};
-          look_ahead(sim, search, of, who, list.runs[r].image, found[order[b]]);
+        for (long s = 0; s < sph_run_count(list.runs[r]); s++) {
+          const long who[2] = {order[b], source[sph_run_start(list.runs[r]) + s]};
+          look_ahead(sim, search, of, who, sph_run_image(list.runs[r]), found[order[b]]);
         }
   }
   return SPH_OK;

@@ -155,8 +155,9 @@ static int find_nearest(places *p, int set)
   for (long i = 0; i < p->n[set]; i++) p->found[i].r2 = INFINITY;
   for (long b = 0; b < list.blocks; b++) /* a point each: one lane */
     for (long r = list.first[b]; r < list.first[b + 1]; r++)
-      for (long s = 0; s < (long)list.runs[r].count; s++)
-        look_at(p, set, order[b], walls[list.runs[r].start + s], list.runs[r].image);
+      for (long s = 0; s < sph_run_count(list.runs[r]); s++)
+        look_at(p, set, order[b], walls[sph_run_start(list.runs[r]) + s],
+                sph_run_image(list.runs[r]));
   return SPH_OK;
 }
 

@@ -36,7 +36,7 @@ BODY matrix_block open_block(int slots, const sph_matrix_task *k, long b)
 BODY void shift_block(int dim, int slots, matrix_block *it, sph_run run)
 {
   for (int s = 0; s < slots; s++)
-    it->i[s] = s < dim ? it->home[s] - it->task->pairs->shift[run.image][s] : it->home[s];
+    it->i[s] = s < dim ? it->home[s] - it->task->pairs->shift[sph_run_image(run)][s] : it->home[s];
 }
 
 /* ---- scalars ---- */
@@ -44,8 +44,8 @@ BODY void shift_block(int dim, int slots, matrix_block *it, sph_run run)
 BODY void scalar_run(int dim, int kernel, matrix_block *it, sph_run run)
 {
   const sph_pair_task *t = it->task->pairs;
-  const double *source = t->source + (long)run.start * t->source_stride;
-  for (int n = 0; n < (int)run.count; n++, source += t->source_stride) {
+  const double *source = t->source + sph_run_start(run) * t->source_stride;
+  for (int n = 0; n < sph_run_count(run); n++, source += t->source_stride) {
     const unsigned bits = *it->mask++;
     if (!bits) continue;
     vec j[SPH_PAIR_SLOTS];
@@ -100,8 +100,8 @@ BODY void vector_entry(int dim, matrix_block *it, unsigned l, double k, double q
 BODY void vector_run(int dim, int kernel, matrix_block *it, sph_run run)
 {
   const sph_pair_task *t = it->task->pairs;
-  const double *source = t->source + (long)run.start * t->source_stride;
-  for (int n = 0; n < (int)run.count; n++, source += t->source_stride) {
+  const double *source = t->source + sph_run_start(run) * t->source_stride;
+  for (int n = 0; n < sph_run_count(run); n++, source += t->source_stride) {
     const unsigned bits = *it->mask++;
     if (!bits) continue;
     vec j[SPH_PAIR_SLOTS], along_v, along_r;

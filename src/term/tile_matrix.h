@@ -101,9 +101,9 @@ BODY void tile_matrix_block(int dim, tile_kernel *kernel, tile_matrix *it, long 
   tile_matrix_open(dim, it, b);
   for (long r = t->first[b]; r < t->first[b + 1]; r++) {
     const sph_run run = t->runs[r];
-    const double *source = t->source + (long)run.start * t->source_stride;
-    for (int d = 0; d < dim; d++) x[d] = home[d] - t->shift[run.image][d];
-    for (int q = 0; q < (int)run.count; q++, source += t->source_stride) {
+    const double *source = t->source + sph_run_start(run) * t->source_stride;
+    for (int d = 0; d < dim; d++) x[d] = home[d] - t->shift[sph_run_image(run)][d];
+    for (int q = 0; q < sph_run_count(run); q++, source += t->source_stride) {
       const unsigned char bits = mask ? *mask++ : 255;
       if (!bits) continue;
       it->bits[n] = bits;

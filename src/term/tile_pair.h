@@ -364,10 +364,10 @@ BODY void tile_block(int dim, tile_kernel *kernel, const sph_pair_task *t, long 
   tile_targets(dim, k, record, t->target_stride, &w->rows);
   for (long r = t->first[b]; r < t->first[b + 1]; r++) {
     const sph_run run = t->runs[r];
-    const double *source = t->source + (long)run.start * t->source_stride;
-    for (int d = 0; d < dim; d++) x[d] = home[d] - t->shift[run.image][d];
-    pair_prefetch(source + (long)run.count * t->source_stride, slot_extra(dim));
-    for (int q = 0; q < (int)run.count; q++, source += t->source_stride) {
+    const double *source = t->source + sph_run_start(run) * t->source_stride;
+    for (int d = 0; d < dim; d++) x[d] = home[d] - t->shift[sph_run_image(run)][d];
+    pair_prefetch(source + sph_run_count(run) * t->source_stride, slot_extra(dim));
+    for (int q = 0; q < sph_run_count(run); q++, source += t->source_stride) {
       tile_row(dim, x, source, &w->rows, n++);
       if (n < SPH_TILE_ROWS) continue;
       tile_take(dim, kernel, k, w, n);

@@ -199,10 +199,11 @@ static void mark(const sph_neighbors *nb, int source, long sources, long b, char
   memset(listed, 0, (size_t)(images * sources));
   for (long r = list.first[b]; r < list.first[b + 1]; r++) {
     const sph_run run = list.runs[r];
-    assert_true(run.start >= 0 && run.start + (long)run.count <= sources && run.count > 0);
-    assert_true((int)run.image < images);
-    for (long s = run.start; s < run.start + (long)run.count; s++)
-      if (listed[run.image * sources + s]++) fail_msg("block %ld lists place %ld twice", b, s);
+    assert_true(sph_run_start(run) + sph_run_count(run) <= sources && sph_run_count(run) > 0);
+    assert_true(sph_run_image(run) < images);
+    for (long s = sph_run_start(run); s < sph_run_start(run) + sph_run_count(run); s++)
+      if (listed[sph_run_image(run) * sources + s]++)
+        fail_msg("block %ld lists place %ld twice", b, s);
   }
 }
 
@@ -431,16 +432,44 @@ static void long_runs(void **state)
 {
   (void)state;
   sph_runs runs = {0};
-  const long count = (1L << 25) + 7;
-  sph_neighbors_runs_add(&runs, 3, count, 1);
-  long next = 3;
+  const long begin = 5L << 16 | 3, count = 4L * SPH_RUN_LONGEST + 7; /* both halves of a start */
+  sph_neighbors_runs_add(&runs, begin, count, SPH_IMAGES_MAX - 1);
+  long next = begin;
   for (long r = 0; r < runs.n; r++) {
-    assert_int_equal(runs.run[r].start, next);
-    next += runs.run[r].count;
+    assert_int_equal(sph_run_start(runs.run[r]), next);
+    assert_int_equal(sph_run_image(runs.run[r]), SPH_IMAGES_MAX - 1);
+    next += sph_run_count(runs.run[r]);
   }
-  assert_int_equal(next, 3 + count);
-  assert_int_equal(runs.n, 3);
+  assert_int_equal(next, begin + count);
+  assert_int_equal(runs.n, 5);
   sph_memory_free(runs.run);
+}
+
+/* Each block reaches all points, which stand next to each other: as few runs as there can be. */
+static void runs_that_go_on(void **state)
+{
+  (void)state;
+  static double x[10000];
+  enum { N = sizeof x / sizeof *x };
+  for (long i = 0; i < N; i++) x[i] = (double)i / N;
+  for (int lanes = 1; lanes <= 8; lanes *= 2) {
+    sph_error error = {0};
+    const sph_neighbors_def def = {.dim = 1, .reach = 2, .dx = 1.0 / N, .lanes = lanes};
+    sph_neighbors *nb = sph_neighbors_create(&def, &error);
+    assert_int_equal(sph_neighbors_sort(nb, 0, N, (const double *const[]){x}, &error), SPH_OK);
+    assert_int_equal(sph_neighbors_build(nb, 0, 0, &error), SPH_OK);
+    const sph_list list = sph_neighbors_list(nb, 0, 0);
+    for (long b = 0; b < list.blocks; b++) {
+      long next = 0;
+      for (long r = list.first[b]; r < list.first[b + 1]; r++) {
+        assert_int_equal(sph_run_start(list.runs[r]), next);
+        next += sph_run_count(list.runs[r]);
+      }
+      assert_int_equal(next, N);
+      assert_true(list.first[b + 1] - list.first[b] <= N / (SPH_RUN_LONGEST - 256) + 1);
+    }
+    sph_neighbors_free(nb);
+  }
 }
 
 static void find(void **state)
@@ -561,6 +590,7 @@ int main(void)
       cmocka_unit_test(steady_state),
       cmocka_unit_test(order),
       cmocka_unit_test(long_runs),
+      cmocka_unit_test(runs_that_go_on),
       cmocka_unit_test(find),
       cmocka_unit_test(lent),
       cmocka_unit_test(bad_arguments),

@@ -210,10 +210,10 @@ static void check_runs(const sph_neighbors *nb, int source, const char *name)
     memset(seen, 0, sizeof seen);
     for (long r = list.first[b]; r < list.first[b + 1]; r++) {
       const sph_run run = list.runs[r];
-      if (run.start < 0 || !run.count || run.start + (long)run.count > both[source].n)
-        fail_msg("%s: a run of %d from %d", name, (int)run.count, run.start);
-      for (long s = run.start; s < run.start + (long)run.count; s++)
-        if (seen[run.image][s]++) fail_msg("%s: place %ld twice", name, s);
+      if (!sph_run_count(run) || sph_run_start(run) + sph_run_count(run) > both[source].n)
+        fail_msg("%s: a run of %ld from %ld", name, sph_run_count(run), sph_run_start(run));
+      for (long s = sph_run_start(run); s < sph_run_start(run) + sph_run_count(run); s++)
+        if (seen[sph_run_image(run)][s]++) fail_msg("%s: place %ld twice", name, s);
     }
   }
 }
