@@ -59,6 +59,10 @@ typedef struct sph_hdf5_def {
   const char *command;   /* the command line, kept in /Code; NULL: none */
   int single;            /* 1: fields of single precision, about half the size; 0: double */
   int compression;       /* 1 (quick) to 9 (small); 0: 1; -1: none */
+  /* Names of fields with spaces or commas between them ("velocity pressure"), besides position,
+   * mass, density, smoothing length, number and group, which are in all snapshots: without them no
+   * reader can place or weigh particles.  Walls have those of them that they have.  NULL: all. */
+  const char *fields;
 } sph_hdf5_def;
 
 SPH_API sph_output sph_output_hdf5(const char *directory, double interval);

@@ -8,6 +8,7 @@
 #include "case_schema.h"
 #include "case_set.h"
 #include "memory.h"
+#include "snapshot.h"
 #include "text.h"
 
 static void set_origin(sph_case_node *node, const char *origin)
@@ -251,8 +252,10 @@ double sph_case_end(const sph_case *c)
 
 const char *sph_case_plot_field(const sph_case *c)
 {
-  const sph_case_node *field = find(c, "plot", "field");
-  return field ? field->text : "";
+  const sph_case_node *field = find(c, "plot", "field"), *written = find(c, "output", "fields");
+  if (field) return field->text;
+  if (!c) return "";
+  return sph_snapshot_holds(written ? written->text : NULL, "velocity") ? "velocity" : "density";
 }
 
 int sph_case_plot_frames(const sph_case *c)

@@ -21,6 +21,8 @@ sph_term sph_case_build_term(const sph_case_node *map);
 /* Its snapshots; texts are borrowed. */
 sph_hdf5_def sph_case_build_output_hdf5(const sph_case *c, const char *directory,
                                         const char *command);
+/* Are the names of output: fields those of fields of the simulation? */
+int sph_case_build_output_fields(const sph_case *c, const sph_sim *sim, sph_error *error);
 /* Time between frames of a probe; NULL: of the series [s]. */
 double sph_case_build_output_interval(const sph_case *c, const sph_case_node *probe);
 

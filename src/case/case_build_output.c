@@ -5,6 +5,7 @@
 #include "case_build.h"
 #include "case_schema.h"
 #include "memory.h"
+#include "snapshot.h"
 #include "sphode/case.h"
 
 #define get_text sph_case_reader_text
@@ -131,6 +132,14 @@ static void add_probe(const builder *b, const sph_case_node *node)
   sph_memory_free(x);
 }
 
+int sph_case_build_output_fields(const sph_case *c, const sph_sim *sim, sph_error *error)
+{
+  const sph_case_node *fields = child_of(child_of(c->root, "output"), "fields");
+  sph_error own = {0};
+  if (!fields || !sph_snapshot_check_fields(sim, fields->text, &own)) return SPH_OK;
+  return sph_case_schema_fail(c, error, fields, 1, 0, "%s", own.text);
+}
+
 void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directory,
                             const char *command)
 {
@@ -139,6 +148,9 @@ void sph_case_build_outputs(const sph_case *c, sph_sim *sim, const char *directo
     return;
   }
   const sph_hdf5_def def = sph_case_build_output_hdf5(c, directory, command);
+  sph_error error = {0};
+  const int status = sph_case_build_output_fields(c, sim, &error);
+  if (status) sph_sim_fail(sim, status, "%s", error.text);
   sph_sim_add_output(sim, sph_output_hdf5_def(&def));
   sph_case_build_series(c, sim, directory);
 }
@@ -151,6 +163,7 @@ sph_hdf5_def sph_case_build_output_hdf5(const sph_case *c, const char *directory
   return (sph_hdf5_def){.directory = directory,
                         .interval = get_number(output, "snapshots", sph_case_end(c) / 20),
                         .case_text = sph_case_text(c),
+                        .fields = get_text(output, "fields", NULL),
                         .single = !strcmp(get_text(output, "precision", "double"), "single"),
                         .compression = compression > 0 ? compression : -1,
                         .command = command};

@@ -3,12 +3,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "case_build.h"
 #include "case_path.h"
 #include "case_profile.h"
 #include "case_section.h"
 #include "csv.h"
 #include "file.h"
 #include "memory.h"
+#include "snapshot.h"
 #include "sphode/case.h"
 #include "words.h"
 
@@ -132,6 +134,25 @@ static int check_times(const comparer *a)
   return SPH_OK;
 }
 
+/* Will the snapshots that are read back hold what is compared? */
+static int check_written(const comparer *a)
+{
+  const char *fields = get_text(child_of(a->c->root, "output"), "fields", NULL);
+  const sph_case_node *quantity = child_of(a->node, "quantity");
+  char field[64], what[300];
+  if (!fields || !quantity || !(child_of(a->node, "at") || sph_case_section_known(a)))
+    return SPH_OK;
+  snprintf(field, sizeof field, "%s", quantity->text);
+  const size_t n = strlen(field);
+  if (n > 2 && field[n - 2] == '_' && strchr("xyz", field[n - 1])) field[n - 2] = 0;
+  if (sph_snapshot_holds(fields, field)) return SPH_OK;
+  snprintf(what, sizeof what,
+           "quantity: snapshots will hold no %s, which is compared with them; output: fields has "
+           "'%.100s'",
+           field, fields);
+  return fail(a, quantity, what);
+}
+
 /* Of a section its times, without which it has no snapshots; of others the places or times that
  * count: in time there may be none of them, which is told (case_warning.c). */
 static int check_window(const comparer *a)
@@ -162,13 +183,14 @@ int sph_case_compare_check(const sph_case *c, sph_sim *sim, const char *director
     return sph_error_set(a.error, SPH_ERR_ARGUMENT, "a check of comparisons: no %s (NULL)",
                          c ? "simulation" : "case");
   const sph_case_node *list = child_of(c->root, "compare");
-  int status = SPH_OK;
+  int status = sph_case_build_output_fields(c, sim, a.error);
   for (a.node = list ? list->first : NULL; a.node && !status; a.node = a.node->next) {
     a.kind = child_of(a.node, "reference")->first;
     const int in_space = sph_case_profile_known(&a) || sph_case_section_known(&a);
     status = check_table(&a);
     if (!status) status = in_space ? check_field(&a) : check_series(&a);
     if (!status) status = check_times(&a);
+    if (!status) status = check_written(&a);
     if (!status) status = check_window(&a);
     if (!status && sph_case_profile_known(&a)) status = sph_case_profile_check(&a);
   }
@@ -177,9 +199,13 @@ int sph_case_compare_check(const sph_case *c, sph_sim *sim, const char *director
 
 /* ---- the picture */
 
-/* Snapshots have an energy of each fluid, elastic where it is no other. */
-static int in_snapshots(const sph_group *group, const sph_field_info *info)
+/* Snapshots have an energy of each fluid, elastic where it is no other; with output: fields those
+ * alone. */
+static int in_snapshots(const sph_case *c, const sph_group *group, const sph_field_info *info)
 {
+  const char *fields = get_text(child_of(c->root, "output"), "fields", NULL);
+  if (!sph_snapshot_holds(fields, info->name)) return 0;
+
   const int elastic = !strcmp(info->name, "energy") && !strcmp(sph_group_kind(group), "fluid");
   return info->saved && (elastic || sph_group_read(group, info->name, 0));
 }
@@ -193,16 +219,17 @@ int sph_case_plot_check(const sph_case *c, sph_sim *sim, sph_error *error)
                          c ? "simulation" : "case");
   const sph_case_node *field = child_of(child_of(c->root, "plot"), "field");
   static const char *const more[] = {"id", "group", "smoothing_length"}; /* of all particles */
-  sph_words words = {.wanted = field->text};
+  sph_words words = {.wanted = field ? field->text : ""};
   const sph_group *group;
-  int fluids = 0;
+  int fluids = 0, status = sph_case_build_output_fields(c, sim, error);
+  if (status || !field) return status; /* else velocity or density */
   for (int k = 0; k < 3; k++)
     if (!strcmp(field->text, more[k])) return SPH_OK;
   for (int g = 0; (group = sph_sim_group_get(sim, g)); g++) {
     const sph_field_info *info;
     const int first = !strcmp(sph_group_kind(group), "fluid") && !fluids++;
     for (int k = 0; (info = sph_group_field(group, k)); k++) {
-      if (!in_snapshots(group, info)) continue;
+      if (!in_snapshots(c, group, info)) continue;
       if (is_named(info, field->text)) return SPH_OK;
       if (first) sph_words_add(&words, info->name);
     }

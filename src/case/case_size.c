@@ -43,6 +43,7 @@ static int of_snapshots(const writing *w, sph_case_size *size)
   size->interval = def.interval;
   int status = count(w, node ? node : output, "snapshots", size);
   size->bytes = NAN;
+  if (!status) status = sph_case_build_output_fields(w->c, w->sim, w->error);
   if (!w->directory) return status;
   const long bytes = status ? status : sph_output_hdf5_size(w->sim, &def, w->error);
   size->bytes = (double)bytes;

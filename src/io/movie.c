@@ -192,7 +192,10 @@ static int make(movie *m)
   if (m->frames < 0) return m->frames;
   if (m->frames == 0)
     return sph_error_set(m->error, SPH_ERR_FILE, "%s holds no snapshots", def->directory);
+  char first[SPH_PATH];
   int status = run_ffmpeg(m, ".", (const char *const[]){"ffmpeg", "-version", NULL});
+  if (!status) status = sph_frames_path(first, def->directory, m->number[0], m->error);
+  if (!status && !m->field) m->field = sph_snapshot_read_default(first);
   m->picture = (sph_picture){.field = m->field,
                              .width = def->width ? def->width : WIDTH,
                              .height = def->width ? def->height : WIDTH,
@@ -213,7 +216,7 @@ int sph_movie_write(const sph_movie_def *def, sph_error *error)
                          !def              ? "definition"
                          : !def->directory ? "directory"
                                            : "path");
-  movie m = {.def = def, .field = def->field ? def->field : "velocity", .error = error};
+  movie m = {.def = def, .field = def->field, .error = error};
   sph_error own = {0};
   if (!error) m.error = &own;
   int status = check(&m);

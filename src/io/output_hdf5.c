@@ -11,7 +11,7 @@
 
 typedef struct context {
   sph_error error; /* of the constructor; told by open */
-  char *directory, *case_text, *command;
+  char *directory, *case_text, *command, *fields;
   int single, compression;
   sph_text index[SPH_PARTS]; /* the entries of the .series files so far */
   long frames, room;
@@ -36,10 +36,10 @@ static int has_walls(const sph_sim *sim)
 static int open_hdf5(void *ctx, sph_sim *sim, sph_error *error)
 {
   context *c = ctx;
-  (void)sim;
   if (!c) return sph_error_set(error, SPH_ERR_MEMORY, "out of memory: an HDF5 output");
   if (c->error.status != SPH_OK) return sph_error_set(error, c->error.status, "%s", c->error.text);
-  int status = sph_file_make_directory(c->directory, error);
+  int status = sph_snapshot_check_fields(sim, c->fields, error);
+  if (!status) status = sph_file_make_directory(c->directory, error);
   for (int part = 0; status == SPH_OK && part < SPH_PARTS; part++)
     sph_file_remove_stale(c->directory, base[part]);
   c->frames = 0;
@@ -110,7 +110,8 @@ static int frame_hdf5(void *ctx, sph_sim *sim, sph_error *error)
   const sph_hdf5_def def = {.case_text = c->case_text,
                             .command = c->command,
                             .single = c->single,
-                            .compression = c->compression};
+                            .compression = c->compression,
+                            .fields = c->fields};
   if (note_time(c, time, error)) return SPH_ERR_MEMORY;
   void *image = sph_snapshot_image(name[0], sim, &def, &size, error);
   int status = write_image(c, name[0], image, size, error);
@@ -195,6 +196,7 @@ static void free_hdf5(void *ctx)
   sph_memory_free(c->directory);
   sph_memory_free(c->case_text);
   sph_memory_free(c->command);
+  sph_memory_free(c->fields);
   sph_memory_free(c);
 }
 
@@ -209,6 +211,7 @@ sph_output sph_output_hdf5_def(const sph_hdf5_def *def)
     c->directory = copy(def->directory, &c->error);
     c->case_text = copy(def->case_text, &c->error);
     c->command = copy(def->command, &c->error);
+    c->fields = copy(def->fields, &c->error);
     c->single = def->single != 0;
     c->compression = def->compression;
     if (def->compression < -1 || def->compression > 9)
@@ -237,9 +240,12 @@ long sph_output_hdf5_size(sph_sim *sim, const sph_hdf5_def *def, sph_error *erro
   size_t size = 0, walls = 0;
   if (!sim)
     return sph_error_set(error, SPH_ERR_ARGUMENT, "the size of a snapshot: no simulation (NULL)");
+  if (!def) def = &nothing;
+  int status = sph_snapshot_check_fields(sim, def->fields, error);
+  if (status) return status;
   file_name(name, SPH_FLUIDS, 0);
-  void *image = sph_snapshot_image(name, sim, def ? def : &nothing, &size, error);
-  int status = image ? SPH_OK : SPH_ERR_MEMORY;
+  void *image = sph_snapshot_image(name, sim, def, &size, error);
+  status = image ? SPH_OK : SPH_ERR_MEMORY;
   sph_memory_free(image);
   if (!status && has_walls(sim)) {
     image = sph_snapshot_image_walls(name, &walls, error);

@@ -16,9 +16,9 @@ static int draw_files(const char *path, const char *directory, const long *numbe
   char name[SPH_PATH];
   sph_snapshot frame[FRAMES_MAX];
   int status = SPH_OK, read = 0;
-  if (!field) field = "velocity";
   for (int k = 0; status == SPH_OK && k < n; k++) {
     if (number) status = sph_frames_path(name, directory, number[k], error);
+    if (status == SPH_OK && !field) field = sph_snapshot_read_default(path ? path : name);
     if (status == SPH_OK) status = sph_snapshot_read(path ? path : name, field, &frame[k], error);
     if (status == SPH_OK) read++;
   }

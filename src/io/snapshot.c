@@ -13,8 +13,10 @@
 #include "memory.h"
 #include "sphode/field.h"
 #include "sphode/kernel.h"
+#include "table.h"
 #include "units.h"
 #include "versions.h"
+#include "words.h"
 
 static const char *const part_names[SPH_PARTS] = {"PartType0", "PartType1"};
 static const char *const vtk_names[SPH_PARTS] = {"VTKHDF", "Walls"};
@@ -53,6 +55,7 @@ typedef struct writer {
   sph_sim *sim;
   int dim;
   int single;
+  const char *fields; /* that are asked for; NULL: all */
   long n[SPH_PARTS];
   void *buffer; /* [3 * larger n] doubles */
 } writer;
@@ -148,6 +151,14 @@ static void write_numbers(writer *w, hid_t where, int part)
   sph_h5_array(&w->h5, where, "Group", H5T_STD_I32LE, H5T_NATIVE_INT, n, 0, w->buffer);
 }
 
+int sph_snapshot_holds(const char *fields, const char *field)
+{
+  static const char *const always[] = {"position", "mass", "density"};
+  for (int k = 0; k < 3; k++)
+    if (!strcmp(field, always[k])) return 1;
+  return !fields || sph_table_listed(fields, field);
+}
+
 static void write_part(writer *w, int part)
 {
   int first = 0; /* the groups of a part have the same fields */
@@ -155,7 +166,8 @@ static void write_part(writer *w, int part)
   const sph_field_info *field;
   hid_t where = sph_h5_group(&w->h5, w->file, part_names[part]);
   for (int k = 0; (field = sph_group_field(group, k)); k++) {
-    if (!field->saved || !gather(w, part, field)) continue;
+    if (!field->saved || !sph_snapshot_holds(w->fields, field->name)) continue;
+    if (!gather(w, part, field)) continue;
     const char *name = sph_snapshot_dataset(field->name);
     sph_h5_array(&w->h5, where, name, stored(w), H5T_NATIVE_DOUBLE, (hsize_t)w->n[part],
                  field->vector ? 3 : 0, w->buffer);
@@ -346,10 +358,44 @@ static void write_all(writer *w, const char *case_text, const char *command)
   }
 }
 
+/* A field of some group that snapshots hold; all of them to words. */
+static int is_saved(const sph_sim *sim, const char *name, sph_words *words)
+{
+  const sph_group *group;
+  const sph_field_info *field;
+  int found = 0;
+  for (int g = 0; (group = sph_sim_group_get(sim, g)); g++)
+    for (int k = 0; (field = sph_group_field(group, k)); k++) {
+      /* of barotropic fluids snapshots hold the elastic energy */
+      const int is_there = sph_group_read(group, field->name, 0) || !strcmp(field->name, "energy");
+      if (!field->saved || !is_there) continue;
+      found |= !strcmp(field->name, name);
+      if (!sph_table_listed(words->known, field->name)) sph_words_add(words, field->name);
+    }
+  return found;
+}
+
+int sph_snapshot_check_fields(const sph_sim *sim, const char *fields, sph_error *error)
+{
+  static const char *const numbers[] = {"smoothing_length", "id", "group"};
+  char word[64];
+  for (const char *at = fields; at && *(at += strspn(at, " ,")); at += strcspn(at, " ,")) {
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(at, " ,"), at);
+    sph_words words = {.wanted = word};
+    int known = is_saved(sim, word, &words);
+    for (int k = 0; k < 3; k++) known |= !strcmp(word, numbers[k]);
+    if (!known)
+      return sph_error_set(error, SPH_ERR_ARGUMENT,
+                           "fields: no group has a field \"%.60s\"; %sthere are: %s", word,
+                           words.nearest, words.known);
+  }
+  return SPH_OK;
+}
+
 void *sph_snapshot_image(const char *name, sph_sim *sim, const sph_hdf5_def *def, size_t *size,
                          sph_error *error)
 {
-  writer w = {.sim = sim, .dim = sph_sim_dim(sim), .single = def->single};
+  writer w = {.sim = sim, .dim = sph_sim_dim(sim), .single = def->single, .fields = def->fields};
   count_particles(&w);
   long larger = w.n[SPH_FLUIDS] > w.n[SPH_WALLS] ? w.n[SPH_FLUIDS] : w.n[SPH_WALLS];
   w.buffer = sph_memory_new(3 * (size_t)larger + 1, sizeof(double), "a snapshot", error);

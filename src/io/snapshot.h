@@ -12,6 +12,10 @@ enum { SPH_FLUIDS, SPH_WALLS, SPH_PARTS }; /* GADGET's particle types 0 and 1 */
  * file it will be, for messages; of def what is kept in it and how. */
 void *sph_snapshot_image(const char *name, sph_sim *sim, const sph_hdf5_def *def, size_t *size,
                          sph_error *error);
+/* Does a snapshot hold the field, where these are asked for (sph_hdf5_def)?  NULL: all are. */
+int sph_snapshot_holds(const char *fields, const char *field);
+/* Are the names in def->fields those of fields?  NULL: yes. */
+int sph_snapshot_check_fields(const sph_sim *sim, const char *fields, sph_error *error);
 /* The bytes of a file whose /VTKHDF is the walls of the snapshot `target` in the same directory. */
 void *sph_snapshot_image_walls(const char *target, size_t *size, sph_error *error);
 
@@ -30,6 +34,8 @@ typedef struct sph_snapshot {
 int sph_snapshot_read(const char *path, const char *field, sph_snapshot *snapshot,
                       sph_error *error);
 void sph_snapshot_read_free(sph_snapshot *snapshot);
+/* The field that is drawn where none is named: velocity, or density where it was not written. */
+const char *sph_snapshot_read_default(const char *path);
 
 /* Its time alone [s]. */
 int sph_snapshot_read_time(const char *path, double *time, sph_error *error);

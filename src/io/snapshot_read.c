@@ -145,6 +145,25 @@ int sph_snapshot_read(const char *path, const char *field, sph_snapshot *snapsho
   return sph_error_set(error, own.status, "%s", own.text);
 }
 
+const char *sph_snapshot_read_default(const char *path)
+{
+  const char *dataset = sph_snapshot_dataset("velocity");
+  sph_h5 h5;
+  sph_error own = {0};
+  int found = 0;
+  sph_h5_enter(&h5);
+  const hid_t file = sph_h5_open(path, &own);
+  for (int part = 0; file >= 0 && part < SPH_PARTS; part++)
+    if (H5Lexists(file, part_names[part], H5P_DEFAULT) > 0) {
+      const hid_t group = H5Gopen2(file, part_names[part], H5P_DEFAULT);
+      found |= group >= 0 && H5Lexists(group, dataset, H5P_DEFAULT) > 0;
+      if (group >= 0) H5Gclose(group);
+    }
+  if (file >= 0) H5Fclose(file);
+  sph_h5_leave(&h5);
+  return found || file < 0 ? "velocity" : "density";
+}
+
 int sph_snapshot_read_time(const char *path, double *time, sph_error *error)
 {
   sph_h5 h5;

@@ -14,6 +14,7 @@
 #include "memory.h"
 #include "snapshot.h"
 #include "sphode.h"
+#include "table.h"
 
 typedef struct record {
   int frames;
@@ -224,14 +225,68 @@ static void periodic_and_scalars(void **state)
   assert_int_equal(rmdir(folder), 0);
 }
 
+/* What a snapshot of the pool with these fields holds, of its fluids or walls: "position ...". */
+static void holds(const char *folder, const char *fields, int part, char *found, size_t size)
+{
+  sph_table table;
+  sph_error error = {0};
+  sph_sim *sim = pool();
+  size_t length = 0;
+  sph_sim_add_output(sim, sph_output_hdf5_def(&(sph_hdf5_def){.directory = folder,
+                                                              .interval = INFINITY,
+                                                              .fields = fields}));
+  assert_int_equal(sph_sim_run(sim, 1e-3), SPH_OK);
+  sph_sim_free(sim);
+  assert_int_equal(sph_table_read(&table, at(folder, "snapshot_0000.hdf"), part, NULL, &error), 0);
+  for (int k = 0; k < table.fields; k++)
+    length +=
+        (size_t)snprintf(found + length, size - length, "%s%s", k ? " " : "", table.field[k].name);
+  sph_table_free(&table);
+}
+
+/* Those that are asked for and those that every reader needs; all others are not there. */
+static void chosen_fields(void **state)
+{
+  char folder[] = "/tmp/sphode-outputs-XXXXXX", found[400];
+  (void)state;
+  assert_non_null(mkdtemp(folder));
+  holds(folder, "velocity, pressure", SPH_FLUIDS, found, sizeof found);
+  assert_string_equal(found, "position velocity density group id mass pressure smoothing_length");
+  holds(folder, "pressure", SPH_FLUIDS, found, sizeof found);
+  assert_string_equal(found, "position density group id mass pressure smoothing_length");
+  assert_string_equal(sph_snapshot_read_default(at(folder, "snapshot_0000.hdf")), "density");
+  holds(folder, "", SPH_WALLS, found, sizeof found);
+  assert_string_equal(found, "position density group id mass smoothing_length");
+  holds(folder, NULL, SPH_FLUIDS, found, sizeof found);
+  assert_string_equal(
+      found,
+      "position velocity density energy group id mass pressure smoothing_length sound_speed");
+  assert_string_equal(sph_snapshot_read_default(at(folder, "snapshot_0000.hdf")), "velocity");
+  sph_sim *sim = pool();
+  sph_error error = {0};
+  const sph_hdf5_def few = {.directory = folder, .fields = "velocity"},
+                     wrong = {.fields = "velocty"};
+  assert_int_equal(sph_sim_run(sim, 1e-3), SPH_OK);
+  assert_true(sph_output_hdf5_size(sim, &few, &error) < sph_output_hdf5_size(sim, NULL, &error));
+  assert_int_equal(sph_output_hdf5_size(sim, &wrong, &error), SPH_ERR_ARGUMENT);
+  assert_non_null(strstr(error.text, "no group has a field \"velocty\"; did you mean 'velocity'?"));
+  sph_sim_add_output(sim, sph_output_hdf5_def(&wrong));
+  assert_int_equal(sph_sim_run(sim, 2e-3), SPH_ERR_ARGUMENT);
+  assert_non_null(strstr(sph_sim_error(sim), "there are: position, velocity"));
+  sph_sim_free(sim);
+  static const char *const files[] = {"snapshot_0000.hdf",   "snapshot_0001.hdf",
+                                      "snapshot.hdf.series", "walls_0000.hdf",
+                                      "walls_0001.hdf",      "walls.hdf.series"};
+  for (int k = 0; k < 6; k++) assert_int_equal(unlink(at(folder, files[k])), 0);
+  assert_int_equal(rmdir(folder), 0);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(frames_between_runs),
-                                     cmocka_unit_test(frames_at_the_ends),
-                                     cmocka_unit_test(moved_by_hand),
-                                     cmocka_unit_test(gas_between_walls),
-                                     cmocka_unit_test(gas_hits_a_wall),
-                                     cmocka_unit_test(silent_terms),
-                                     cmocka_unit_test(periodic_and_scalars)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(frames_between_runs),  cmocka_unit_test(frames_at_the_ends),
+      cmocka_unit_test(moved_by_hand),        cmocka_unit_test(gas_between_walls),
+      cmocka_unit_test(gas_hits_a_wall),      cmocka_unit_test(silent_terms),
+      cmocka_unit_test(periodic_and_scalars), cmocka_unit_test(chosen_fields)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -298,6 +298,25 @@ else
   ok 0 "all cases are right by it # SKIP no python3 with jsonschema and yaml"
 fi
 
+# ---- which fields snapshots hold
+
+chosen() { sed -e "s/^output:/output:\n  fields: $1/" -e '/^plot:/,$d' "$SRCDIR/cases/dam-break-2d.yml" >chosen.yml; } # FIELDS: without picture, comparisons
+chosen "pressure velocty"
+run 1 "$sphode" check chosen.yml && grep -q "chosen.yml:[0-9]*:11: fields: no group has a field \"velocty\"; did you mean 'velocity'" err &&
+  run 1 "$sphode" run chosen.yml -o chosen && grep -q "chosen.yml:[0-9]*:11: fields: .*velocty" err && [[ ! -e chosen/snapshot_0000.hdf ]]
+ok $? "output: fields names one that there is not"
+chosen "pressure, sound_speed"
+run 0 "$sphode" run chosen.yml -o chosen --set run.end=T/100 --set parameters.dx=H/10 --force && run 0 "$sphode" export chosen --csv &&
+  [[ $(head -1 chosen/csv/snapshot_0000.csv | tr -d '"' | sed 's/ \[[^]]*\]//g') == x,y,density,group,id,mass,pressure,smoothing_length,sound_speed ]] &&
+  run 1 "$sphode" plot chosen --field velocity && grep -q 'no field "velocity"; it has: .*sound_speed' err
+ok $? "snapshots hold them and no others"
+printf 'plot:\n  field: velocity_x\n' >>chosen.yml
+run 1 "$sphode" check chosen.yml && grep -q "chosen.yml:[0-9]*:10: field: snapshots will have no 'velocity_x'" err
+ok $? "nor can a picture show others"
+sed -e 's/^output:/output:\n  fields: pressure/' -e 's/^  field: .*/  field: pressure/' "$SRCDIR/cases/taylor-green-2d.yml" >chosen.yml
+grep -q "    at: " chosen.yml && run 1 "$sphode" check chosen.yml && grep -q "chosen.yml:[0-9]*:[0-9]*: quantity: snapshots will hold no velocity, which is compared with them" err
+ok $? "nor what is compared with snapshots"
+
 # ---- sweeps
 
 small=(--set run.end=0.01s)
