@@ -12,20 +12,21 @@
 #include "integrator_data.h"
 #include "scheme.h"
 
-static void half(sph_ode *ode)
+static void half(sph_ode *ode, double a, const double *f)
 {
+  (void)a, (void)f;
   for (int k = 0; k < ode->segments; k++) {
     const sph_segment *s = &ode->segment[k], *v = ode->drift ? NULL : sph_scheme_velocity(ode, k);
     long o = s->offset;
     const double *rate = v ? ode->y0 + v->offset : ode->f0 + o;
-    sph_scheme_advance(ode, s->n, ode->h / 2, ode->y + o, ode->y0 + o, rate, NULL);
+    sph_scheme_advance(s->n, ode->h / 2, ode->y + o, ode->y0 + o, rate, NULL);
   }
 }
 
 static int step(void *ctx, sph_ode *ode)
 {
   (void)ctx;
-  half(ode);
+  sph_scheme_sweep(ode, half, 0, NULL);
   int status = sph_ode_rhs(ode, ode->t + ode->h / 2, ode->y, ode->f1);
   if (status) return status;
   sph_scheme_drift(ode);

@@ -11,45 +11,43 @@
 #include "integrator_data.h"
 #include "scheme.h"
 
-static void predict(sph_ode *ode)
+static void predict(sph_ode *ode, double a, const double *f)
 {
+  (void)a, (void)f;
   double *y = ode->y;
   const double *y0 = ode->y0, *f0 = ode->f0;
   for (int k = 0; k < ode->segments; k++) {
     const sph_segment *s = &ode->segment[k], *v = sph_scheme_velocity(ode, k);
     long o = s->offset;
     if (v)
-      sph_scheme_advance(ode, s->n, ode->h, y + o, y0 + o, y0 + v->offset, f0 + v->offset);
+      sph_scheme_advance(s->n, ode->h, y + o, y0 + o, y0 + v->offset, f0 + v->offset);
     else
-      sph_scheme_advance(ode, s->n, ode->h, y + o, y0 + o, f0 + o, NULL);
-    if (v && ode->drift) sph_scheme_slip(ode, s->n, ode->h, y + o, y + o, f0 + o, y0 + v->offset);
+      sph_scheme_advance(s->n, ode->h, y + o, y0 + o, f0 + o, NULL);
+    if (v && ode->drift) sph_scheme_slip(s->n, ode->h, y + o, y + o, f0 + o, y0 + v->offset);
   }
 }
 
-static void correct_drift(sph_ode *ode)
+static void correct(sph_ode *ode, double a, const double *f)
 {
-  for (int k = 0; ode->drift && k < ode->segments; k++) {
+  (void)a, (void)f;
+  for (int k = 0; k < ode->segments; k++) {
     const sph_segment *s = &ode->segment[k], *v = sph_scheme_velocity(ode, k);
     double *r = ode->y + s->offset;
-    if (!v) continue;
-    sph_scheme_advance(ode, s->n, ode->h / 2, r, r, ode->f1 + s->offset, NULL);
-    sph_scheme_slip(ode, s->n, -ode->h / 2, r, r, ode->f0 + s->offset, ode->y0 + v->offset);
+    if (!v) sph_scheme_mean(s->n, ode->h, r, ode->y0 + s->offset, ode->f1 + s->offset);
+    if (!v || !ode->drift) continue;
+    sph_scheme_advance(s->n, ode->h / 2, r, r, ode->f1 + s->offset, NULL);
+    sph_scheme_slip(s->n, -ode->h / 2, r, r, ode->f0 + s->offset, ode->y0 + v->offset);
   }
 }
 
 static int step(void *ctx, sph_ode *ode)
 {
   (void)ctx;
-  predict(ode);
+  sph_scheme_sweep(ode, predict, 0, NULL);
   int status = sph_ode_rhs(ode, ode->t1, ode->y, ode->f1);
   if (status) return status;
   sph_scheme_drift(ode);
-  correct_drift(ode);
-  for (int k = 0; k < ode->segments; k++) {
-    long o = ode->segment[k].offset;
-    if (!sph_scheme_velocity(ode, k))
-      sph_scheme_mean(ode, ode->segment[k].n, ode->h, ode->y + o, ode->y0 + o, ode->f1 + o);
-  }
+  sph_scheme_sweep(ode, correct, 0, NULL);
   sph_scheme_undrift(ode);
   return SPH_OK;
 }

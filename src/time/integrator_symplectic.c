@@ -5,15 +5,31 @@
  *   end       v1 = v0 + h a_,  r1 = r0 + h/2 (v0 + v1) + h d_
  *             rho1 = rho0 (2 - e)/(2 + e),  e = -(R_/rho_) h,     other q1 = q0 + h R_
  * Second order; symplectic for forces of positions alone. */
+#include <stddef.h>
+
 #include "integrator_data.h"
 #include "scheme.h"
 
 /* rho comes as its value at half the step. */
 static void density(long n, double h, double *rho, const double *rho0, const double *R)
 {
+#pragma omp for schedule(static) nowait
   for (long i = 0; i < n; i++) {
     double e = -R[i] / rho[i] * h;
     rho[i] = rho0[i] * (2 - e) / (2 + e);
+  }
+}
+
+static void correct(sph_ode *ode, double a, const double *f)
+{
+  (void)a, (void)f;
+  for (int k = 0; k < ode->segments; k++) {
+    const sph_segment *s = &ode->segment[k];
+    long o = s->offset;
+    if (s->role == SPH_ROLE_DENSITY)
+      density(s->n, ode->h, ode->y + o, ode->y0 + o, ode->f1 + o);
+    else
+      sph_scheme_advance(s->n, ode->h, ode->y + o, ode->y0 + o, ode->f1 + o, NULL);
   }
 }
 
@@ -24,14 +40,7 @@ static int step(void *ctx, sph_ode *ode)
   int status = sph_ode_rhs(ode, ode->t + ode->h / 2, ode->y, ode->f1);
   if (status) return status;
   sph_scheme_drift(ode);
-  for (int k = 0; k < ode->segments; k++) {
-    const sph_segment *s = &ode->segment[k];
-    long o = s->offset;
-    if (s->role == SPH_ROLE_DENSITY)
-      density(s->n, ode->h, ode->y + o, ode->y0 + o, ode->f1 + o);
-    else
-      sph_scheme_advance(ode, s->n, ode->h, ode->y + o, ode->y0 + o, ode->f1 + o, NULL);
-  }
+  sph_scheme_sweep(ode, correct, 0, NULL);
   sph_scheme_positions(ode, 1);
   return SPH_OK;
 }

@@ -15,25 +15,31 @@
 
 enum { N = 40 };
 
-static int step(void *ctx, sph_ode *ode)
+/* From y' over h' + h, or (Euler) from y0. */
+static void advance(sph_ode *ode, double h, const double *from)
 {
-  int euler = ode->step % N == 0;
-  double *keep = ode->work[ode->step % 2]; /* y0 is y' of the next step */
-  const double *from = euler ? ode->y0 : ode->work[(ode->step + 1) % 2];
-  double h = euler ? ode->h : ode->h_last + ode->h;
-  (void)ctx;
-  memcpy(keep, ode->y0, (size_t)ode->n * sizeof *keep);
+  const int euler = ode->step % N == 0;
   for (int k = 0; k < ode->segments; k++) {
     const sph_segment *s = &ode->segment[k], *v = sph_scheme_velocity(ode, k);
     long o = s->offset;
     double *y = ode->y + o;
     const double *y0 = ode->y0, *f0 = ode->f0;
     if (!v || (ode->drift && !euler))
-      sph_scheme_advance(ode, s->n, h, y, from + o, f0 + o, NULL);
+      sph_scheme_advance(s->n, h, y, from + o, f0 + o, NULL);
     else
-      sph_scheme_advance(ode, s->n, ode->h, y, y0 + o, y0 + v->offset, f0 + v->offset);
-    if (v && ode->drift && euler) sph_scheme_slip(ode, s->n, ode->h, y, y, f0 + o, y0 + v->offset);
+      sph_scheme_advance(s->n, ode->h, y, y0 + o, y0 + v->offset, f0 + v->offset);
+    if (v && ode->drift && euler) sph_scheme_slip(s->n, ode->h, y, y, f0 + o, y0 + v->offset);
   }
+}
+
+static int step(void *ctx, sph_ode *ode)
+{
+  int euler = ode->step % N == 0;
+  double *keep = ode->work[ode->step % 2]; /* y0 is y' of the next step */
+  const double *from = euler ? ode->y0 : ode->work[(ode->step + 1) % 2];
+  (void)ctx;
+  memcpy(keep, ode->y0, (size_t)ode->n * sizeof *keep);
+  sph_scheme_sweep(ode, advance, euler ? ode->h : ode->h_last + ode->h, from);
   return SPH_OK;
 }
 

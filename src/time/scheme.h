@@ -9,18 +9,23 @@
 /* The segment with the velocity of segment k if that is a position, else NULL. */
 const sph_segment *sph_scheme_velocity(const sph_ode *ode, int k);
 
-/* y = y0 + h (g + h/2 f), without f y0 + h g; y0 may be y.  Arrays: [n], n >= 0. */
-void sph_scheme_advance(const sph_ode *ode, long n, double h, double *y, const double *y0,
-                        const double *g, const double *f);
+/* What a thread does for its share of all segments; a, f: as given to sph_scheme_sweep, which calls
+ * it, in as many threads as pay: one region for all segments, not one each. */
+typedef void sph_scheme_sweeper(sph_ode *ode, double a, const double *f);
+void sph_scheme_sweep(sph_ode *ode, sph_scheme_sweeper *sweep, double a, const double *f);
+
+/* In a sweep; what one of these writes, the next may read at the same place, of as many entries.
+ * y = y0 + h (g + h/2 f), without f y0 + h g; y0 may be y.  Arrays: [n], n >= 0. */
+void sph_scheme_advance(long n, double h, double *y, const double *y0, const double *g,
+                        const double *f);
 /* y = y0 + h/2 (f0 + f1) */
-void sph_scheme_kick(const sph_ode *ode, long n, double h, double *y, const double *y0,
-                     const double *f0, const double *f1);
+void sph_scheme_kick(long n, double h, double *y, const double *y0, const double *f0,
+                     const double *f1);
 /* y = (y0 + y + h f)/2 */
-void sph_scheme_mean(const sph_ode *ode, long n, double h, double *y, const double *y0,
-                     const double *f);
+void sph_scheme_mean(long n, double h, double *y, const double *y0, const double *f);
 /* y = y0 + h (f - v); y0 may be y */
-void sph_scheme_slip(const sph_ode *ode, long n, double h, double *y, const double *y0,
-                     const double *f, const double *v);
+void sph_scheme_slip(long n, double h, double *y, const double *y0, const double *f,
+                     const double *v);
 
 /* All of y = y0 + h f, positions included. */
 void sph_scheme_euler(sph_ode *ode, double h, const double *f);
