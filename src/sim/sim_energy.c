@@ -43,17 +43,21 @@ static void internal(const sph_group *group, const sph_view *view, long begin, l
   }
 }
 
-void sph_sim_energy_internal(const sph_sim *sim, const sph_group *group, const sph_view *view)
+void sph_sim_energy_internal_of(const sph_group *group, const sph_view *view, long begin, long end)
 {
   int integrated = sph_group_data_energy(group), temperature = view->T && view->T != view->energy;
   if (integrated < 0 || (integrated == SPH_ENERGY && !temperature)) return;
+  internal(group, view, begin, end);
+  if (temperature)
+    sph_eos_temperature(&group->eos, end - begin, view->rho + begin, view->u + begin,
+                        view->T + begin);
+}
+
+void sph_sim_energy_internal(const sph_sim *sim, const sph_group *group, const sph_view *view)
+{
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (view->n > PARALLEL_MIN)
-  for (long i = 0; i < view->n; i += CHUNK) {
-    long end = view->n - i < CHUNK ? view->n : i + CHUNK;
-    internal(group, view, i, end);
-    if (temperature)
-      sph_eos_temperature(&group->eos, end - i, view->rho + i, view->u + i, view->T + i);
-  }
+  for (long i = 0; i < view->n; i += CHUNK)
+    sph_sim_energy_internal_of(group, view, i, view->n - i < CHUNK ? view->n : i + CHUNK);
 }
 
 double sph_sim_energy_rate(const sph_group *group, const sph_view *view, long i, double heat,

@@ -5,7 +5,9 @@
 
 /* Before the run: does the equation of state fit?  Then the integrated energy from u. */
 int sph_sim_energy_start(sph_group *group);
-/* u (and T where a term needs it) of all particles from the integrated energy. */
+/* u (and T where a term needs it) of particles begin .. end - 1, or of all of them, from the
+ * integrated energy. */
+void sph_sim_energy_internal_of(const sph_group *group, const sph_view *view, long begin, long end);
 void sph_sim_energy_internal(const sph_sim *sim, const sph_group *group, const sph_view *view);
 /* The rate of the integrated energy of particle i: heat [W/kg]; compression: the rate of density by
  * continuity [kg/m^3/s].  Accelerations must be final. */

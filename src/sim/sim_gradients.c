@@ -6,11 +6,11 @@
  * first M is of neighbours of the same fluid, as the diffusion, the second of all its species. */
 #include <string.h>
 
+#include "cpu.h"
 #include "gradient_loops.h"
 #include "sim_mirror.h"
 #include "sim_rhs.h"
 
-enum { SOLVED = 256 }; /* at once */
 static const double LEAST_EIGENVALUE = 0.4, LEAST_CORRECTED = 0.2;
 
 /* Cholesky of the dim x dim matrix A - shift I; 0 where it is not positive definite. */
@@ -93,11 +93,10 @@ static inline int above(symmetric M, double least)
 }
 
 /* M^-1 b by cofactors, M being far from singular: one division a particle. */
-static inline void finish(const sph_sim *sim, int dim, const sph_sorted *sorted, long s)
+static inline void finish(const sph_sim *sim, int dim, double *const *sum, long s, double *gradient)
 {
   const double scale = sim->F_scale;
-  double *const *sum = sorted->sum, *const *b = sum + gradient_sums(dim) - dim;
-  double *gradient = sorted->record + s * sorted->stride + slot_extra(dim);
+  double *const *b = sum + gradient_sums(dim) - dim;
   const symmetric M = matrix_at(dim, scale, sum, s), C = cofactors(&M);
   if (!above(M, LEAST_EIGENVALUE)) return; /* the slots hold zeros */
   const double x = b[0][s], y = dim > 1 ? b[1][s] : 0, z = dim > 2 ? b[2][s] : 0;
@@ -107,24 +106,28 @@ static inline void finish(const sph_sim *sim, int dim, const sph_sorted *sorted,
   if (dim > 2) gradient[2] = factor * (C.xz * x + C.yz * y + C.zz * z);
 }
 
-static void finish_range(const sph_sim *sim, const sph_sorted *sorted, long begin, long end)
+/* Of a share whose first target is at sorted place `first`. */
+static void finish_share(const sph_sim *sim, int g, const sph_share *share, long first)
 {
-  for (long s = begin; s < end; s++) {
+  const sph_sorted *sorted = &sim->sorted[g];
+  double *gradient = sorted->record + first * sorted->stride + slot_extra(sim->dim);
+  const long n = sph_sim_pairs_targets(sim, g, share);
+  for (long s = 0; s < n; s++, gradient += sorted->stride) {
     if (sim->dim == 3)
-      finish(sim, 3, sorted, s);
+      finish(sim, 3, share->sum, s, gradient);
     else if (sim->dim == 2)
-      finish(sim, 2, sorted, s);
+      finish(sim, 2, share->sum, s, gradient);
     else
-      finish(sim, 1, sorted, s);
+      finish(sim, 1, share->sum, s, gradient);
   }
 }
 
-/* B at sorted place s. */
-static void invert(const sph_sim *sim, sph_sorted *sorted, long s)
+/* B of the target that has sum[..][s] and this record. */
+static void invert(const sph_sim *sim, double *const *sum, long s, double *record)
 {
   const int dim = sim->dim;
-  double L[3][3], *B = sorted->record + s * sorted->stride + slot_B(dim);
-  const int corrected = factor(sim, sorted->sum, s, LEAST_CORRECTED, L);
+  double L[3][3], *B = record + slot_B(dim);
+  const int corrected = factor(sim, sum, s, LEAST_CORRECTED, L);
   for (int a = 0; a < dim; a++) {
     double column[3] = {0};
     column[a] = 1;
@@ -133,14 +136,35 @@ static void invert(const sph_sim *sim, sph_sorted *sorted, long s)
   }
 }
 
+typedef struct preparing {
+  const sph_evaluation *e;
+  int g;
+} preparing;
+
 /* Sums over neighbours of the same fluid, or over those of its species that are another. */
-static void add_sums(sph_sim *sim, int g, int same)
+static void add_sums(const sph_sim *sim, const sph_share *share, int g, int same)
 {
   sph_pair_function *loop = sph_gradient_loop(sim->isa, sim->kernel_number, sim->dim);
   for (int s = 0; s < sim->groups; s++)
     if (sph_sim_interaction_same_species(sim->group[g], sim->group[s]) &&
         sph_sim_interaction_same_fluid(sim->group[g], sim->group[s]) == same)
-      sph_sim_pairs_loop(sim, loop, g, s, &sim->constants);
+      sph_sim_pairs_loop_share(sim, share, loop, g, s, &sim->constants);
+}
+
+/* Some targets: their sums, and while these are in the cache what follows from them.  Slots that
+ * the loop does not read are written. */
+static void prepare_share(void *ctx, const sph_share *share)
+{
+  const preparing *k = ctx;
+  const sph_sim *sim = k->e->sim;
+  sph_sorted *sorted = &k->e->sim->sorted[k->g];
+  const long first = share->begin * sph_cpu_lanes(sim->isa);
+  add_sums(sim, share, k->g, 1);
+  if (k->e->part->rates & SPH_ANTUONO) finish_share(sim, k->g, share, first);
+  if (!(k->e->part->terms & SPH_CORRECTED)) return;
+  add_sums(sim, share, k->g, 0);
+  for (long s = 0; s < sph_sim_pairs_targets(sim, k->g, share); s++)
+    invert(sim, share->sum, s, sorted->record + (first + s) * sorted->stride);
 }
 
 int sph_sim_gradients(sph_evaluation *e)
@@ -148,19 +172,9 @@ int sph_sim_gradients(sph_evaluation *e)
   sph_sim *sim = e->sim;
   if (!e->part->gradients) return SPH_OK;
   for (int g = 0; g < sim->groups; g++) {
-    const long n = e->view[g].n;
-    if (sim->group[g]->wall || sim->group[g]->eos.dust) continue;
-    sph_sim_pairs_clear(sim, g, gradient_sums(sim->dim));
-    add_sums(sim, g, 1);
-    if (e->part->rates & SPH_ANTUONO) {
-#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > 2048)
-      for (long s = 0; s < n; s += SOLVED)
-        finish_range(sim, &sim->sorted[g], s, s + SOLVED < n ? s + SOLVED : n);
-    }
-    if (!(e->part->terms & SPH_CORRECTED)) continue;
-    add_sums(sim, g, 0);
-#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > 2048)
-    for (long s = 0; s < n; s++) invert(sim, &sim->sorted[g], s);
+    preparing k = {.e = e, .g = g};
+    if (!sim->group[g]->wall && !sim->group[g]->eos.dust)
+      sph_sim_pairs_share(sim, g, gradient_sums(sim->dim), !e->sums, prepare_share, &k);
   }
   if (e->part->terms & SPH_CORRECTED) sph_sim_mirror_matrices(sim);
   return SPH_OK;

@@ -15,43 +15,58 @@ static void suspect(sph_sim *sim, int g, const double *a, double least, long n)
 }
 
 /* Entries of a[n] that are not > 0 and finite. */
-static long not_positive(const double *a, long n, int threads)
+static long not_positive(const double *a, long n)
 {
   long bad = 0;
-#pragma omp parallel for num_threads(threads) schedule(static) reduction(+ : bad)                  \
-    if (n > PARALLEL_MIN)
   for (long i = 0; i < n; i++) bad += !(a[i] > 0 && a[i] < INFINITY);
   return bad;
 }
 
-int sph_sim_material_eos(sph_evaluation *e)
+/* Of particles begin .. end - 1, whose densities are right: how many are in no state of it. */
+static long find(const sph_group *group, const sph_view *view, long begin, long end)
+{
+  long lost = 0;
+  sph_sim_energy_internal_of(group, view, begin, end);
+  group->eos.pressure(&group->eos, end - begin, view->rho + begin,
+                      group->eos.thermal ? view->u + begin : NULL, view->p + begin,
+                      view->c + begin);
+  for (long k = begin; k < end; k++) lost += !(view->c[k] < INFINITY);
+  return lost;
+}
+
+/* All of a group in one sweep: densities are looked at where they are used. */
+static int find_all(sph_evaluation *e, int g)
 {
   sph_sim *sim = e->sim;
-  for (int g = 0; g < sim->groups && (e->part->eos || e->part->pairs); g++) {
-    const sph_group *group = sim->group[g];
-    const sph_view *view = &e->view[g];
-    if (group->wall) continue;
-    long n = view->n, bad = not_positive(view->rho, n, sim->threads);
-    if (bad) suspect(sim, g, view->rho, 0, n);
-    if (bad)
-      return sph_sim_admit_retry(sim, "%s: density of %ld particles is not positive", group->name,
-                                 bad);
-    if (!e->part->eos) continue;
-    sph_sim_energy_internal(sim, group, view);
-#pragma omp parallel for num_threads(sim->threads) schedule(static) reduction(+ : bad)             \
+  const sph_group *group = sim->group[g];
+  const sph_view *view = &e->view[g];
+  const long n = view->n;
+  long bad = 0, lost = 0;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) reduction(+ : bad, lost)       \
     if (n > PARALLEL_MIN)
-    for (long i = 0; i < n; i += CHUNK) {
-      long some = n - i < CHUNK ? n - i : CHUNK;
-      group->eos.pressure(&group->eos, some, view->rho + i, group->eos.thermal ? view->u + i : NULL,
-                          view->p + i, view->c + i);
-      for (long k = i; k < i + some; k++) bad += !(view->c[k] < INFINITY);
-    }
-    if (bad) suspect(sim, g, view->c, -INFINITY, n);
-    if (bad)
-      return sph_sim_admit_retry(sim, "%s: %ld particles are in no state of equation of state %s",
-                                 group->name, bad, group->eos.name);
+  for (long i = 0; i < n; i += CHUNK) {
+    const long end = n - i < CHUNK ? n : i + CHUNK, wrong = not_positive(view->rho + i, end - i);
+    bad += wrong;
+    if (!wrong && e->part->eos) lost += find(group, view, i, end);
   }
+  if (bad) suspect(sim, g, view->rho, 0, n);
+  if (bad)
+    return sph_sim_admit_retry(sim, "%s: density of %ld particles is not positive", group->name,
+                               bad);
+  if (lost) suspect(sim, g, view->c, -INFINITY, n);
+  if (lost)
+    return sph_sim_admit_retry(sim, "%s: %ld particles are in no state of equation of state %s",
+                               group->name, lost, group->eos.name);
   return SPH_OK;
+}
+
+int sph_sim_material_eos(sph_evaluation *e)
+{
+  const sph_sim *sim = e->sim;
+  int status = SPH_OK;
+  for (int g = 0; !status && g < sim->groups && (e->part->eos || e->part->pairs); g++)
+    if (!sim->group[g]->wall) status = find_all(e, g);
+  return status;
 }
 
 static void powers(const sph_sim *sim, const sph_view *view, double *phi)

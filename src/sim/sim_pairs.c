@@ -151,12 +151,14 @@ void sph_sim_pairs_pack_positions(const sph_evaluation *e, int g)
   const packing k = packing_of(e, g);
   const int wall = sim->group[g]->wall && sim->group[g]->model == SPH_MODEL_ADAMI;
   const double wall_mass = sim->group[g]->rho0 * sim->wall_volume;
-  for (long s = 0; s < e->view[g].n; s++) {
+  const long n = e->view[g].n;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
+  for (long s = 0; s < n; s++) {
     const long i = k.order[s];
     for (int d = 0; d < sim->dim; d++) k.record[s * k.stride + d] = position(&k, d, i);
     k.record[s * k.stride + slot_V(sim->dim)] = wall ? wall_mass : k.view.m[i];
   }
-  pack_tail(&e->sim->sorted[g], e->view[g].n);
+  pack_tail(&e->sim->sorted[g], n);
 }
 
 void sph_sim_pairs_clear(sph_sim *sim, int g, int sums)

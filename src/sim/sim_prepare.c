@@ -444,30 +444,61 @@ static int left(sph_sim *sim, int g, long i, double density)
                              sim->group[g]->name, i, density);
 }
 
+/* Is that of particles begin .. end - 1 all finite, and density positive?  The first that is not;
+ * else `end`. */
+static long find_left(const sph_sim *sim, const sph_view *view, int wall, long begin, long end)
+{
+  for (long i = begin; i < end; i++) {
+    double size = view->rho[i] + (view->energy ? fabs(view->energy[i]) : 0);
+    for (int q = 0; !wall && q < sim->terms.scalars; q++) size += fabs(view->s[q][i]);
+    for (int d = 0; d < sim->dim; d++) size += fabs(view->x[d][i]) + fabs(view->v[d][i]);
+    if (!(view->rho[i] > 0) || !(size < INFINITY)) return i;
+  }
+  return end;
+}
+
+/* The first particle of group g that is not finite, or without a positive density, into *left, and
+ * the first in no state of the equation of state into *bad; n: none. */
+static void look_at(const sph_sim *sim, int g, const sph_view *view, long *left, long *bad)
+{
+  enum { CHUNK = 1024 };
+  const sph_eos *eos = &sim->group[g]->eos;
+  const int wall = sim->group[g]->wall,
+            stated = !wall && !(eos->thermal && view->energy != view->u);
+  const long n = view->n;
+  long first = n, lost = n;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) \
+    reduction(min                                                   \
+              : first, lost) if (n > 4096)
+  for (long i = 0; i < n; i += CHUNK) {
+    const long end = n - i < CHUNK ? n : i + CHUNK, out = find_left(sim, view, wall, i, end);
+    if (out < end && out < first) first = out;
+    if (out < end || !stated) continue;
+    const long at =
+        sph_eos_find_bad(eos, end - i, view->rho + i, eos->thermal ? view->u + i : NULL);
+    if (at >= 0 && i + at < lost) lost = i + at;
+  }
+  *left = first;
+  *bad = lost;
+}
+
 /* A state between steps: all finite, density positive, a state of the equation of state. */
 static int admissible(double t, N_Vector y, void *ctx)
 {
   sph_sim *sim = ctx;
   (void)t;
   for (int g = 0; g < sim->groups; g++) {
-    sph_view view = sph_group_data_view(sim->group[g], sph_nvector_data(y), NULL);
-    const int dynamic = sim->group[g]->model == SPH_MODEL_DBC;
-    for (long i = 0; dynamic && i < view.n; i++)
-      if (!(view.rho[i] > 0 && view.rho[i] < INFINITY)) return left(sim, g, i, view.rho[i]);
-    for (long i = 0; !sim->group[g]->wall && i < view.n; i++) {
-      double size = view.rho[i] + (view.energy ? fabs(view.energy[i]) : 0);
-      for (int q = 0; q < sim->terms.scalars; q++) size += fabs(view.s[q][i]);
-      for (int d = 0; d < sim->dim; d++) size += fabs(view.x[d][i]) + fabs(view.v[d][i]);
-      if (!(view.rho[i] > 0) || !(size < INFINITY)) return left(sim, g, i, view.rho[i]);
-    }
-    const sph_eos *eos = &sim->group[g]->eos;
-    if (sim->group[g]->wall || (eos->thermal && view.energy != view.u)) continue;
-    long bad = sph_eos_find_bad(eos, view.n, view.rho, eos->thermal ? view.u : NULL);
-    if (bad < 0) continue;
+    const sph_group *group = sim->group[g];
+    const sph_view view = sph_group_data_view(group, sph_nvector_data(y), NULL);
+    long first, bad;
+    if (group->wall && group->model != SPH_MODEL_DBC) continue;
+    look_at(sim, g, &view, &first, &bad);
+    if (first < view.n) return left(sim, g, first, view.rho[first]);
+    if (bad >= view.n) continue;
     sph_sim_failure_suspect(sim, g, bad);
     return sph_sim_admit_retry(
-        sim, "%s: particle %ld is in no state of equation of state %s: density %g",
-        sim->group[g]->name, bad, eos->name, view.rho[bad]);
+        sim, "%s: particle %ld is in no state of equation of state %s: density %g", group->name,
+        bad, group->eos.name, view.rho[bad]);
   }
   return SPH_OK;
 }
