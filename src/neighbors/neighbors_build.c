@@ -50,6 +50,17 @@ static sph_pair_list *open_list(sph_neighbors *nb, int target, int source, long 
   return *list;
 }
 
+/* The share of thread k > 0 behind those of the threads before. */
+static void put(const sph_neighbors *nb, sph_pair_list *list, long blocks, int k)
+{
+  const sph_runs *share = &nb->scratch[k];
+  long begin = list->runs.n;
+  for (int before = 1; before < k; before++) begin += nb->scratch[before].n;
+  for (long b = blocks * k / nb->def.threads; b < blocks * (k + 1) / nb->def.threads; b++)
+    list->first[b] += begin;
+  if (share->n) memcpy(list->runs.run + begin, share->run, (size_t)share->n * sizeof(sph_run));
+}
+
 /* Puts the shares of threads 1, 2, ... behind that of thread 0, which is in the list already. */
 static int join(sph_neighbors *nb, sph_pair_list *list, long blocks, sph_error *error)
 {
@@ -65,14 +76,9 @@ static int join(sph_neighbors *nb, sph_pair_list *list, long blocks, sph_error *
                          "search %s: found stretches that are not 0 .. %d, rising, apart",
                          nb->search.name, SPH_STRETCHES);
   if (status) return sph_error_set(error, status, "out of memory: neighbour runs");
-  for (int k = 1; k < threads; k++) {
-    const sph_runs *share = &nb->scratch[k];
-    for (long b = blocks * k / threads; b < blocks * (k + 1) / threads; b++)
-      list->first[b] += list->runs.n;
-    if (share->n)
-      memcpy(list->runs.run + list->runs.n, share->run, (size_t)share->n * sizeof(sph_run));
-    list->runs.n += share->n;
-  }
+#pragma omp parallel for num_threads(threads) schedule(static) if (blocks > PARALLEL_MIN)
+  for (int k = 1; k < threads; k++) put(nb, list, blocks, k);
+  list->runs.n += more;
   list->first[blocks] = list->runs.n;
   list->blocks = blocks;
   return SPH_OK;

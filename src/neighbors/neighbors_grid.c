@@ -1,5 +1,5 @@
-/* The sorted column grid: one counting sort into the cells of a grid, stable, so that ties go by
- * the point's index.  Near a box: the columns that it reaches, each narrowed by its distance. */
+/* The sorted column grid: a counting sort into the cells of a grid, stable, so that ties go by the
+ * point's index.  Near a box: the columns that it reaches, each narrowed by its distance. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -7,10 +7,11 @@
 #include "memory.h"
 #include "searches.h"
 
-enum { CELLS_MAX = 1000000000, SAMPLE = 16384, COLUMNS = 64 };
+enum { CELLS_MAX = 1000000000, SAMPLE = 16384, COLUMNS = 64, HEAPS = 1024, PARALLEL_MIN = 4096 };
 
 typedef struct grids {
   sph_neighbors_def def;
+  int *place; /* [threads * HEAPS] of one sort (struct sorting) */
   sph_grid set[SPH_SETS_MAX];
 } grids;
 
@@ -118,7 +119,7 @@ static void choose(const sph_neighbors_def *def, const sph_points *p, sph_grid *
 
 /* ---- sort */
 
-static int reserve(sph_grid *grid, long n, sph_error *error)
+static int reserve(sph_grid *grid, long n, int threads, sph_error *error)
 {
   long cells = grid->cells[0] * grid->cells[1] * grid->cells[2] + 1;
   if (cells > grid->start_room) {
@@ -127,10 +128,12 @@ static int reserve(sph_grid *grid, long n, sph_error *error)
     if (status) return status;
     grid->start_room = cells + cells / 4;
   }
-  memset(grid->start, 0, (size_t)cells * sizeof *grid->start);
   if (n <= grid->room && grid->cell) return SPH_OK;
-  long room = n + n / 8 + 16;
+  grid->room = 0;
+  const long room = n + n / 8 + 16;
   int status = sph_memory_grow((void **)&grid->cell, 0, (size_t)room, sizeof(int), "cells", error);
+  if (!status && threads > 1)
+    status = sph_memory_grow((void **)&grid->heaped, 0, (size_t)room, sizeof(int), "cells", error);
   if (!status) grid->room = room;
   return status;
 }
@@ -144,24 +147,106 @@ static inline long cell_of(const sph_grid *grid, int d, double x)
   return k < (double)grid->cells[d] ? (long)k : grid->cells[d] - 1;
 }
 
-static void counting_sort(int dim, const sph_points *p, sph_grid *grid, int *order)
+/* One sort of n points, which share k of `shares` takes from n k/shares on.  First into heaps of
+ * 2^shift cells each, then heap by heap into their cells: what a thread writes stays in its cache.
+ * Both are stable, so that the order is the same for any number of shares. */
+typedef struct sorting {
+  const sph_points *p;
+  sph_grid *grid;
+  int dim, shift, shares;
+  long cells, heaps;
+  int *place; /* [shares][heaps]: points of each share in each heap, then where its next one goes */
+} sorting;
+
+static inline void find_cells(const sorting *s, int dim, int share)
 {
-  long cells = grid->cells[0] * grid->cells[1] * grid->cells[2];
-  for (long i = 0; i < p->n; i++) {
+  const sph_grid grid = *s->grid;
+  const long end = s->p->n * (share + 1) / s->shares;
+  int *count = s->place + share * s->heaps;
+  memset(count, 0, (size_t)s->heaps * sizeof *count);
+  for (long i = s->p->n * share / s->shares; i < end; i++) {
     long cell = 0;
-    for (int d = 0; d < dim; d++) cell = cell * grid->cells[d] + cell_of(grid, d, p->x[d][i]);
-    grid->cell[i] = (int)cell;
-    grid->start[cell]++;
+    for (int d = 0; d < dim; d++) cell = cell * grid.cells[d] + cell_of(&grid, d, s->p->x[d][i]);
+    grid.cell[i] = (int)cell;
+    count[cell >> s->shift]++;
   }
+}
+
+static void find_cells_of(const sorting *s, int share)
+{
+  if (s->dim == 3)
+    find_cells(s, 3, share);
+  else if (s->dim == 2)
+    find_cells(s, 2, share);
+  else
+    find_cells(s, 1, share);
+}
+
+/* Counts become places: heap after heap, in each the points of one share after the other. */
+static void find_places(const sorting *s)
+{
   int sum = 0;
-  for (long c = 0; c <= cells; c++) { /* counts become starts */
-    int count = c < cells ? grid->start[c] : 0;
-    grid->start[c] = sum;
-    sum += count;
+  for (long h = 0; h < s->heaps; h++)
+    for (int k = 0; k < s->shares; k++) {
+      int *place = &s->place[k * s->heaps + h], count = *place;
+      *place = sum;
+      sum += count;
+    }
+}
+
+static void fill_heaps(const sorting *s, int share)
+{
+  const sph_grid *grid = s->grid;
+  const long end = s->p->n * (share + 1) / s->shares;
+  int *place = s->place + share * s->heaps;
+  for (long i = s->p->n * share / s->shares; i < end; i++)
+    grid->heaped[place[grid->cell[i] >> s->shift]++] = (int)i;
+}
+
+/* Point k of all heaps; one heap has them as they are. */
+static inline int heaped(const sorting *s, int k) { return s->heaps > 1 ? s->grid->heaped[k] : k; }
+
+/* A heap into its cells, from behind: ends of cells become their starts. */
+static void sort_heap(const sorting *s, long heap, int *order)
+{
+  const sph_grid *grid = s->grid;
+  const int *ends = s->place + (s->shares - 1) * s->heaps; /* of the heaps by now */
+  const int begin = heap > 0 ? ends[heap - 1] : 0;
+  const int end = heap < s->heaps - 1 ? ends[heap] : (int)s->p->n;
+  const long first = heap << s->shift, last = (heap + 1) << s->shift;
+  int *start = grid->start, sum = begin;
+  for (long c = first; c < last && c < s->cells; c++) start[c] = 0;
+  for (int k = begin; k < end; k++) start[grid->cell[heaped(s, k)]]++;
+  for (long c = first; c < last && c < s->cells; c++) {
+    sum += start[c];
+    start[c] = sum;
   }
-  for (long i = 0; i < p->n; i++) order[grid->start[grid->cell[i]]++] = (int)i;
-  memmove(grid->start + 1, grid->start, (size_t)cells * sizeof *grid->start); /* ends: starts */
-  grid->start[0] = 0;
+  for (int k = end - 1; k >= begin; k--) {
+    const int i = heaped(s, k);
+    order[--start[grid->cell[i]]] = i;
+  }
+}
+
+static void counting_sort(const grids *all, const sph_points *p, sph_grid *grid, int *order)
+{
+  const int threads = all->def.threads;
+  sorting s = {.p = p,
+               .grid = grid,
+               .dim = all->def.dim,
+               .shift = 8,
+               .shares = p->n > PARALLEL_MIN ? threads : 1,
+               .cells = grid->cells[0] * grid->cells[1] * grid->cells[2],
+               .place = all->place};
+  while ((s.cells - 1) >> s.shift >= (s.shares > 1 ? HEAPS : 1)) s.shift++;
+  s.heaps = ((s.cells - 1) >> s.shift) + 1;
+#pragma omp parallel for num_threads(threads) schedule(static) if (s.shares > 1)
+  for (int k = 0; k < s.shares; k++) find_cells_of(&s, k);
+  find_places(&s);
+#pragma omp parallel for num_threads(threads) schedule(static) if (s.shares > 1)
+  for (int k = 0; k < (s.heaps > 1 ? s.shares : 0); k++) fill_heaps(&s, k);
+#pragma omp parallel for num_threads(threads) schedule(dynamic) if (s.shares > 1)
+  for (long h = 0; h < s.heaps; h++) sort_heap(&s, h, order);
+  grid->start[s.cells] = (int)p->n;
 }
 
 static int sort(void *ctx, int set, const sph_points *points, int *order, sph_error *error)
@@ -169,8 +254,8 @@ static int sort(void *ctx, int set, const sph_points *points, int *order, sph_er
   grids *all = ctx;
   sph_grid *grid = &all->set[set];
   choose(&all->def, points, grid);
-  int status = reserve(grid, points->n, error);
-  if (!status) counting_sort(all->def.dim, points, grid, order);
+  int status = reserve(grid, points->n, all->def.threads, error);
+  if (!status) counting_sort(all, points, grid, order);
   return status;
 }
 
@@ -231,9 +316,10 @@ static int near(const void *ctx, int set, const double *lo, const double *hi, do
 static double bytes(const void *ctx)
 {
   const grids *all = ctx;
-  double sum = sizeof *all;
+  const int arrays = all->def.threads > 1 ? 2 : 1;
+  double sum = sizeof *all + sizeof(int) * (double)HEAPS * all->def.threads;
   for (int s = 0; s < SPH_SETS_MAX; s++)
-    sum += sizeof(int) * (double)(all->set[s].start_room + all->set[s].room);
+    sum += sizeof(int) * ((double)all->set[s].start_room + arrays * (double)all->set[s].room);
   return sum;
 }
 
@@ -243,7 +329,9 @@ static void release(void *ctx)
   for (int s = 0; s < SPH_SETS_MAX; s++) {
     sph_memory_free(all->set[s].start);
     sph_memory_free(all->set[s].cell);
+    sph_memory_free(all->set[s].heaped);
   }
+  sph_memory_free(all->place);
   sph_memory_free(all);
 }
 
@@ -258,6 +346,11 @@ int sph_neighbors_grid(const sph_neighbors_def *def, sph_search *search, sph_err
   grids *all = SPH_NEW(grids, 1, "the grid of neighbours", error);
   if (!all) return SPH_ERR_MEMORY;
   all->def = *def;
+  all->place = SPH_NEW(int, (long)def->threads *HEAPS, "the grid of neighbours", error);
+  if (!all->place) {
+    sph_memory_free(all);
+    return SPH_ERR_MEMORY;
+  }
   *search = (sph_search){"grid", sort, near, bytes, release, all};
   return SPH_OK;
 }

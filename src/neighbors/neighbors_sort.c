@@ -6,7 +6,8 @@
 #include "memory.h"
 #include "neighbors_data.h"
 
-static const double FAR_AWAY = 1e150; /* [m]; its square is still finite */
+enum { SHARES = 64, PARALLEL_MIN = 4096 }; /* of the points; points */
+static const double FAR_AWAY = 1e150;      /* [m]; its square is still finite */
 
 void sph_neighbors_sort_lend(sph_neighbors *nb, int set_number, double *const x[])
 {
@@ -43,13 +44,6 @@ static double wrapped(const sph_neighbors *nb, const sph_set *set, const double 
   return x[d][i] - set->wrap[d][i] * nb->def.length[d];
 }
 
-static void wrap(const sph_neighbors *nb, sph_set *set, const double *const x[])
-{
-  for (int d = 0; d < nb->def.dim; d++)
-    for (long i = 0; nb->def.periodic[d] && i < set->n; i++)
-      set->wrap[d][i] = floor((x[d][i] - nb->def.origin[d]) / nb->def.length[d]);
-}
-
 /* Not finite, or so far away that double precision cannot place it. */
 static int lost(const sph_neighbors *nb, const sph_set *set, const double *const x[], int d, long i)
 {
@@ -57,23 +51,56 @@ static int lost(const sph_neighbors *nb, const sph_set *set, const double *const
   return !(fabs(x[d][i]) < FAR_AWAY);
 }
 
+/* What a share of the points says of coordinate d. */
+typedef struct bounds {
+  double lo[3], hi[3];
+  long lost[3]; /* the first that is nowhere; -1: none */
+} bounds;
+
+/* Of points begin .. end - 1, which are wrapped.  Where a direction is periodic, x[d] of the set
+ * holds them in their order for a while. */
+static bounds look(const sph_neighbors *nb, sph_set *set, const double *const x[], long begin,
+                   long end)
+{
+  bounds b = {.lost = {-1, -1, -1}};
+  for (int d = 0; d < nb->def.dim; d++) {
+    const int periodic = nb->def.periodic[d];
+    double lo = INFINITY, hi = -INFINITY;
+    for (long i = begin; i < end; i++) {
+      if (periodic) set->wrap[d][i] = floor((x[d][i] - nb->def.origin[d]) / nb->def.length[d]);
+      if (b.lost[d] < 0 && lost(nb, set, x, d, i)) b.lost[d] = i;
+      const double a = wrapped(nb, set, x, d, i);
+      if (periodic) set->x[d][i] = a;
+      lo = a < lo ? a : lo;
+      hi = a > hi ? a : hi;
+    }
+    b.lo[d] = lo;
+    b.hi[d] = hi;
+  }
+  return b;
+}
+
 static int find_bounds(const sph_neighbors *nb, sph_set *set, const double *const x[],
                        sph_error *error)
 {
+  bounds of[SHARES];
+  const long n = set->n;
+#pragma omp parallel for num_threads(nb->def.threads) schedule(static) if (n > PARALLEL_MIN)
+  for (int k = 0; k < SHARES; k++) of[k] = look(nb, set, x, n * k / SHARES, n * (k + 1) / SHARES);
   for (int d = 0; d < nb->def.dim; d++) {
     double lo = INFINITY, hi = -INFINITY;
-    for (long i = 0; i < set->n; i++) {
-      if (lost(nb, set, x, d, i))
+    for (int k = 0; k < SHARES; k++) {
+      const long i = of[k].lost[d];
+      if (i >= 0)
         return sph_error_set(error, SPH_RETRY,
                              "coordinate %d of point %ld is %g m; right is a finite number not "
                              "extremely far away",
                              d, i, x[d][i]);
-      double a = wrapped(nb, set, x, d, i);
-      lo = a < lo ? a : lo;
-      hi = a > hi ? a : hi;
+      lo = fmin(lo, of[k].lo[d]);
+      hi = fmax(hi, of[k].hi[d]);
     }
-    set->lo[d] = set->n ? lo : 0;
-    set->hi[d] = set->n ? hi : 0;
+    set->lo[d] = n ? lo : 0;
+    set->hi[d] = n ? hi : 0;
   }
   return SPH_OK;
 }
@@ -100,9 +127,7 @@ static int find_order(sph_neighbors *nb, int set_number, const double *const x[]
     points.x[d] = x[d];
     points.lo[d] = set->lo[d];
     points.hi[d] = set->hi[d];
-    if (!nb->def.periodic[d]) continue;
-    for (long i = 0; i < set->n; i++) set->x[d][i] = wrapped(nb, set, x, d, i); /* for a while */
-    points.x[d] = set->x[d];
+    if (nb->def.periodic[d]) points.x[d] = set->x[d];
   }
   sph_error own = {0};
   int status = search->sort(search->ctx, set_number, &points, set->order, &own);
@@ -114,6 +139,17 @@ static int find_order(sph_neighbors *nb, int set_number, const double *const x[]
                          "search %s: its order of set %d is no permutation of 0 .. %ld",
                          search->name, set_number, set->n - 1);
   return SPH_OK;
+}
+
+/* Positions in the new order. */
+static void copy(const sph_neighbors *nb, sph_set *set, const double *const x[])
+{
+  const long n = set->n;
+#pragma omp parallel for num_threads(nb->def.threads) schedule(static) if (n > PARALLEL_MIN)
+  for (int k = 0; k < SHARES; k++)
+    for (int d = 0; d < nb->def.dim; d++)
+      for (long s = n * k / SHARES; s < n * (k + 1) / SHARES; s++)
+        set->x[d][s] = wrapped(nb, set, x, d, set->order[s]);
 }
 
 static void end_lists(sph_neighbors *nb, int set)
@@ -138,11 +174,9 @@ int sph_neighbors_sort(sph_neighbors *nb, int set_number, long n, const double *
   int status = reserve(nb, set, n, error);
   if (status) return status;
   set->n = n;
-  wrap(nb, set, x);
   status = find_bounds(nb, set, x, error);
   if (!status) status = find_order(nb, set_number, x, error);
-  for (int d = 0; d < nb->def.dim && !status; d++)
-    for (long s = 0; s < n; s++) set->x[d][s] = wrapped(nb, set, x, d, set->order[s]);
+  if (!status) copy(nb, set, x);
   set->sorted = !status;
   return status;
 }

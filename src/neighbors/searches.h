@@ -31,6 +31,7 @@ typedef struct sph_grid {
   double cut[3], skip[3]; /* cut .. cut + skip, between two heaps of points, takes no cells [m] */
   int *start;             /* [cells + 1] first sorted place of each cell */
   int *cell;              /* [room] of point i, not sorted */
+  int *heaped;            /* [room] points, those of some cells together; NULL: one thread */
   long start_room, room;
 } sph_grid;
 
