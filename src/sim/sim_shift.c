@@ -101,6 +101,7 @@ static void show_images(const sph_evaluation *e)
     const sph_group *group = sim->group[g];
     if (!sph_sim_mirror_slips(group)) continue;
     const int *order = sph_neighbors_order(sim->neighbors, g);
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (e->view[g].n > PARALLEL_MIN)
     for (long s = 0; s < e->view[g].n; s++) {
       const sph_ghost *ghost = &group->ghost[order[s]];
       const double *from =
@@ -173,11 +174,15 @@ static void find_surface(sph_evaluation *e, const shift_constants *k)
   for (int g = 0; g < sim->groups; g++) {
     if (!fluid(sim->group[g])) continue;
     pass(sim, k, SPH_SHIFT_covered, SHIFT_COVERED_SUMS, g);
+    long open = 0;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) reduction(+ : open)            \
+    if (e->view[g].n > PARALLEL_MIN)
     for (long s = 0; s < e->view[g].n; s++) {
       double *flag = sim->sorted[g].shifted + s * slots + shift_flag(dim);
       if (sim->sorted[g].sum[0][s] > 0) *flag = 0;
-      sim->surface += *flag > 0;
+      open += *flag > 0;
     }
+    sim->surface += open;
     finish_tail(sim, g, e->view[g].n);
   }
 }
@@ -235,8 +240,9 @@ static void add_drift(sph_evaluation *e, int g)
   const sph_sim *sim = e->sim;
   const int dim = sim->dim, *order = sph_neighbors_order(sim->neighbors, g);
   const sph_view *view = &e->view[g];
-  for (int d = 0; d < dim; d++)
-    for (long s = 0; s < view->n; s++)
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (view->n > PARALLEL_MIN)
+  for (long s = 0; s < view->n; s++)
+    for (int d = 0; d < dim; d++)
       view->dx[d][order[s]] += sim->sorted[g].shifted[s * shift_slots(dim) + shift_drift(dim) + d];
 }
 

@@ -162,6 +162,7 @@ static void show_images(const sph_evaluation *e, int g)
   const int *order = sph_neighbors_order(sim->neighbors, g), dim = sim->dim;
   const int slots = switch_slots(dim);
   const long n = e->view[g].n;
+#pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
   for (long s = 0; s < n; s++) {
     const sph_ghost *ghost = &group->ghost[order[s]];
     const double *record = sorted->record + s * sorted->stride;
