@@ -48,7 +48,7 @@ typedef struct sph_error {
  * error == NULL is allowed: then only status is returned. */
 SPH_API int sph_error_set(sph_error *error, int status, const char *format, ...) SPH_PRINTF(3, 4);
 
-/* "0.7.0" */
+/* "0.8.0" */
 SPH_API const char *sph_version(void);
 
 #ifdef __cplusplus

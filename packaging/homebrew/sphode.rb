@@ -3,7 +3,7 @@
 class Sphode < Formula
   desc "Smoothed particle hydrodynamics as a system of ordinary differential equations"
   homepage "https://sphode.example"
-  url "https://sphode.example/sphode-0.7.0.tar.gz"
+  url "https://sphode.example/sphode-0.8.0.tar.gz"
   sha256 "0000000000000000000000000000000000000000000000000000000000000000"
   license "BSD-3-Clause"
 

@@ -7,10 +7,10 @@ class Sphode(AutotoolsPackage):
     """Smoothed particle hydrodynamics as a system of ordinary differential equations, on SUNDIALS."""
 
     homepage = "https://sphode.example"
-    url = "https://sphode.example/sphode-0.7.0.tar.gz"
+    url = "https://sphode.example/sphode-0.8.0.tar.gz"
     license("BSD-3-Clause", checked_by="the sphode authors")
 
-    version("0.7.0", sha256="0" * 64)
+    version("0.8.0", sha256="0" * 64)
 
     variant("openmp", default=True, description="Several threads")
     variant("python", default=False, description="Install the Python package")
