@@ -9,10 +9,10 @@
 #include "bench.h"
 #include "cpu.h"
 
-#define DECLARE(isa) extern const baseline_code baseline_code_##isa;
+#define DECLARE(isa, loops) extern const baseline_code baseline_code_##loops;
 SPH_ISA_BUILT(DECLARE)
 static const baseline_code *const codes[SPH_ISA_COUNT] = {
-#define ROW(isa) [SPH_ISA_##isa] = &baseline_code_##isa,
+#define ROW(isa, loops) [SPH_ISA_##isa] = &baseline_code_##loops,
     SPH_ISA_BUILT(ROW)
 #undef ROW
 };

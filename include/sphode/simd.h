@@ -4,6 +4,9 @@
  * (AVX-512).  Operators + - * / work on vec as on double, comparisons where it holds doubles; the
  * functions below do the rest.
  *
+ * With SPH_SQRT_NEWTON roots of eight lanes are made by Newton's steps, beside the divider: a
+ * fifth to a third faster on processors of Intel, slower on those of AMD.
+ *
  * With SPH_VEC_TANGENT vec is one complex number instead, a value and, tiny beside it, a
  * derivative (complex step; Martins, Sturdza & Alonso 2003): a body that uses the operators + - * /
  * and the functions below then differentiates itself, exactly to rounding.  Constants of a body
@@ -84,7 +87,17 @@ BODY vec v_select(vec_mask m, vec a, vec b) /* m ? a : b */
 #if SPH_LANES == 8 && defined(__AVX512F__)
 BODY vec v_max(vec a, vec b) { return (vec)_mm512_max_pd((__m512d)a, (__m512d)b); }
 BODY vec v_min(vec a, vec b) { return (vec)_mm512_min_pd((__m512d)a, (__m512d)b); }
+#ifdef SPH_SQRT_NEWTON
+BODY vec v_sqrt(vec a) /* 14 bits, twice as many a step: within an ulp or two; a < 1e300 */
+{
+  vec y = (vec)_mm512_rsqrt14_pd((__m512d)v_max(a, v_set(1e-300))), root = a * y, half = 0.5 * y;
+  vec off = 0.5 - root * half;
+  root += root * off, half += half * off;
+  return root + (a - root * root) * half;
+}
+#else
 BODY vec v_sqrt(vec a) { return (vec)_mm512_sqrt_pd((__m512d)a); }
+#endif
 #elif SPH_LANES == 4 && defined(__AVX__)
 BODY vec v_max(vec a, vec b) { return (vec)_mm256_max_pd((__m256d)a, (__m256d)b); }
 BODY vec v_min(vec a, vec b) { return (vec)_mm256_min_pd((__m256d)a, (__m256d)b); }

@@ -5,11 +5,12 @@
 #include "sphode/base.h"
 
 /* Suffix of the exported tables, name for people, lanes; slow to fast. */
-#define SPH_ISA_LIST(X)        \
-  X(reference, "reference", 1) \
-  X(generic, "generic", 2)     \
-  X(x86_64_v2, "x86-64-v2", 2) \
-  X(x86_64_v3, "x86-64-v3", 4) \
+#define SPH_ISA_LIST(X)                      \
+  X(reference, "reference", 1)               \
+  X(generic, "generic", 2)                   \
+  X(x86_64_v2, "x86-64-v2", 2)               \
+  X(x86_64_v3, "x86-64-v3", 4)               \
+  X(x86_64_v4_newton, "x86-64-v4-newton", 8) \
   X(x86_64_v4, "x86-64-v4", 8)
 
 enum sph_isa {
@@ -19,26 +20,30 @@ enum sph_isa {
       SPH_ISA_COUNT
 };
 
-/* Those built into this library: X(suffix).  Two lanes once: processors without x86-64-v2, which
- * are from before 2009, take the reference. */
+/* Those built into this library: X(suffix, suffix of the tables that it takes).  Two lanes once:
+ * processors without x86-64-v2, which are from before 2009, take the reference.  Roots by Newton's
+ * steps (simd.h) have fused loops of their own, where they are worth it, and are x86-64-v4 else. */
 #ifdef SPH_HAVE_X86_64_V2
 #define SPH_ISA_TWO_LANES "x86-64-v2"
-#define SPH_ISA_BUILT_TWO(X) X(x86_64_v2)
+#define SPH_ISA_BUILT_TWO(X) X(x86_64_v2, x86_64_v2)
 #else
 #define SPH_ISA_TWO_LANES "generic"
-#define SPH_ISA_BUILT_TWO(X) X(generic)
+#define SPH_ISA_BUILT_TWO(X) X(generic, generic)
 #endif
 #ifdef SPH_HAVE_X86_64_V3
-#define SPH_ISA_BUILT_V3(X) X(x86_64_v3)
+#define SPH_ISA_BUILT_V3(X) X(x86_64_v3, x86_64_v3)
 #else
 #define SPH_ISA_BUILT_V3(X)
 #endif
 #ifdef SPH_HAVE_X86_64_V4
-#define SPH_ISA_BUILT_V4(X) X(x86_64_v4)
+#define SPH_ISA_BUILT_V4(X, newton) X(x86_64_v4, x86_64_v4) X(x86_64_v4_newton, newton)
 #else
-#define SPH_ISA_BUILT_V4(X)
+#define SPH_ISA_BUILT_V4(X, newton)
 #endif
-#define SPH_ISA_BUILT(X) X(reference) SPH_ISA_BUILT_TWO(X) SPH_ISA_BUILT_V3(X) SPH_ISA_BUILT_V4(X)
+#define SPH_ISA_BUILT_WITH(X, newton) \
+  X(reference, reference) SPH_ISA_BUILT_TWO(X) SPH_ISA_BUILT_V3(X) SPH_ISA_BUILT_V4(X, newton)
+#define SPH_ISA_BUILT(X) SPH_ISA_BUILT_WITH(X, x86_64_v4)
+#define SPH_ISA_BUILT_FUSED(X) SPH_ISA_BUILT_WITH(X, x86_64_v4_newton)
 
 /* In a *_loops.c, compiled once per instruction set with SPH_ISA its suffix: the name of its
  * table. */

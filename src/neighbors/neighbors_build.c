@@ -6,7 +6,7 @@
 
 enum { PARALLEL_MIN = 256 }; /* blocks */
 
-#define DECLARE(isa) extern const sph_neighbors_table sph_neighbors_loops_##isa;
+#define DECLARE(isa, loops) extern const sph_neighbors_table sph_neighbors_loops_##loops;
 SPH_ISA_BUILT(DECLARE)
 
 /* The fastest instance of that many lanes that this processor runs; else the reference, which
@@ -14,10 +14,10 @@ SPH_ISA_BUILT(DECLARE)
 static sph_neighbors_lister *lister_of(int lanes)
 {
   sph_neighbors_lister *list = sph_neighbors_loops_reference.list;
-#define MATCH(isa)                                             \
+#define MATCH(isa, loops)                                      \
   if (sph_cpu_lanes(SPH_ISA_##isa) == lanes &&                 \
       sph_cpu_isa(sph_cpu_isa_name(SPH_ISA_##isa), NULL) >= 0) \
-    list = sph_neighbors_loops_##isa.list;
+    list = sph_neighbors_loops_##loops.list;
   SPH_ISA_BUILT(MATCH)
 #undef MATCH
   return list;

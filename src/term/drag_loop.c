@@ -1,10 +1,10 @@
 #include "drag_loops.h"
 
-#define DECLARE(isa) extern const sph_drag_table sph_drag_loops_##isa;
+#define DECLARE(isa, loops) extern const sph_drag_table sph_drag_loops_##loops;
 SPH_ISA_BUILT(DECLARE)
 
 static const sph_drag_table *const tables[SPH_ISA_COUNT] = {
-#define ROW(isa) [SPH_ISA_##isa] = &sph_drag_loops_##isa,
+#define ROW(isa, loops) [SPH_ISA_##isa] = &sph_drag_loops_##loops,
     SPH_ISA_BUILT(ROW)
 #undef ROW
 };

@@ -1,11 +1,11 @@
 #include "fluid_loops.h"
 
-#define DECLARE(isa) extern const sph_fluid_table sph_fluid_loops_##isa;
-SPH_ISA_BUILT(DECLARE)
+#define DECLARE(isa, loops) extern const sph_fluid_table sph_fluid_loops_##loops;
+SPH_ISA_BUILT_FUSED(DECLARE)
 
 static const sph_fluid_table *const tables[SPH_ISA_COUNT] = {
-#define ROW(isa) [SPH_ISA_##isa] = &sph_fluid_loops_##isa,
-    SPH_ISA_BUILT(ROW)
+#define ROW(isa, loops) [SPH_ISA_##isa] = &sph_fluid_loops_##loops,
+    SPH_ISA_BUILT_FUSED(ROW)
 #undef ROW
 };
 

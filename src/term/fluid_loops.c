@@ -3,24 +3,35 @@
 #include "fluid_loops.h"
 #include "fluid_terms.h"
 
-#define FLUID(kernel, dim, set, mask, slots, sums)                                    \
-  BODY void body_##kernel##_##dim##_##set(int d, const void *constants, const vec *i, \
-                                          const vec *j, vec *sum)                     \
-  {                                                                                   \
-    const fluid_constants *k = constants;                                             \
-    fluid_pair(d, kernel, mask, k, i, j, sum);                                        \
-  }                                                                                   \
-  static void fluid_##kernel##_##dim##_##set(const sph_pair_task *t, long b, long e)  \
-  {                                                                                   \
-    sph_pair_loop(body_##kernel##_##dim##_##set, t, b, e, dim, slots, sums);          \
+#define FLUID(name, kernel, dim, terms, slots, sums)                                        \
+  BODY void name##_body(int d, const void *constants, const vec *i, const vec *j, vec *sum) \
+  {                                                                                         \
+    const fluid_constants *k = constants;                                                   \
+    fluid_pair(d, kernel, terms, k, i, j, sum);                                             \
+  }                                                                                         \
+  static void name(const sph_pair_task *t, long b, long e)                                  \
+  {                                                                                         \
+    sph_pair_loop(name##_body, t, b, e, dim, slots, sums);                                  \
   }
-#define KERNEL(kernel)             \
-  SPH_FLUID_SETS(FLUID, kernel, 1) \
-  SPH_FLUID_SETS(FLUID, kernel, 2) \
-  SPH_FLUID_SETS(FLUID, kernel, 3)
-SPH_KERNEL_LIST(KERNEL)
 
+#if SPH_LANES == 1 /* the reference reads the kernel at run time: an eighth of the code */
+#define NAMED(none, dim, set, mask, slots, sums) \
+  FLUID(fluid_##dim##_##set, k->kernel, dim, mask, slots, sums)
+SPH_FLUID_SETS(NAMED, , 1)
+SPH_FLUID_SETS(NAMED, , 2)
+SPH_FLUID_SETS(NAMED, , 3)
+#define NAME(kernel, dim, set, mask, slots, sums) fluid_##dim##_##set,
+#else
+#define NAMED(kernel, dim, set, mask, slots, sums) \
+  FLUID(fluid_##kernel##_##dim##_##set, kernel, dim, mask, slots, sums)
+#define KERNEL(kernel)             \
+  SPH_FLUID_SETS(NAMED, kernel, 1) \
+  SPH_FLUID_SETS(NAMED, kernel, 2) \
+  SPH_FLUID_SETS(NAMED, kernel, 3)
+SPH_KERNEL_LIST(KERNEL)
 #define NAME(kernel, dim, set, mask, slots, sums) fluid_##kernel##_##dim##_##set,
+#endif
+
 #define ROW(kernel)                              \
   [kernel] = {{SPH_FLUID_SETS(NAME, kernel, 1)}, \
               {SPH_FLUID_SETS(NAME, kernel, 2)}, \

@@ -1,11 +1,11 @@
 #include "gradient_loops.h"
 
-#define DECLARE(isa) extern const sph_gradient_table sph_gradient_loops_##isa;
-SPH_ISA_BUILT(DECLARE)
+#define DECLARE(isa, loops) extern const sph_gradient_table sph_gradient_loops_##loops;
+SPH_ISA_BUILT_FUSED(DECLARE)
 
 static const sph_gradient_table *const tables[SPH_ISA_COUNT] = {
-#define ROW(isa) [SPH_ISA_##isa] = &sph_gradient_loops_##isa,
-    SPH_ISA_BUILT(ROW)
+#define ROW(isa, loops) [SPH_ISA_##isa] = &sph_gradient_loops_##loops,
+    SPH_ISA_BUILT_FUSED(ROW)
 #undef ROW
 };
 

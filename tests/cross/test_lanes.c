@@ -105,6 +105,7 @@ static int found(const cloud *c, int isa, rates *out)
   const double *const x[3] = {c->x[0], c->x[1], c->x[2]};
   const sph_neighbors_def def = {.dim = c->dim, .reach = 3, .dx = 1, .lanes = sph_cpu_lanes(isa)};
   const fluid_constants k = {.terms = c->terms,
+                             .kernel = c->kernel,
                              .inverse_h = 1 / c->h,
                              .eta2 = 0.01 * c->h * c->h,
                              .viscosity_1 = -alpha * c->h,

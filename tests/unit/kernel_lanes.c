@@ -13,3 +13,8 @@ void SPH_ISA_NAME(kernel_lanes)(int kernel, int dim, const double *q, double *w,
     v_store(l + n, kernel_shape_laplacian(kernel, dim, at));
   }
 }
+
+void SPH_ISA_NAME(kernel_roots)(const double *a, double *root)
+{
+  for (int n = 0; n < KERNEL_LANES; n += SPH_LANES) v_store(root + n, v_sqrt(v_load(a + n)));
+}

@@ -303,13 +303,42 @@ static void compare(int k, int dim, double q, double w, double f, double l)
   assert_near(l, curvature + (dim - 1) * right, 1e-13 * (fabs(curvature) - right), "laplacian");
 }
 
+/* Roots by every instruction set, by the divider or by Newton's steps: of zero zero, else within
+ * two units of the last place. */
+static void roots(void **state)
+{
+  (void)state;
+  static kernel_roots *const roots_of[SPH_ISA_COUNT] = {
+#define LANES(isa, loops) [SPH_ISA_##isa] = kernel_roots_##loops,
+      SPH_ISA_BUILT_FUSED(LANES)};
+#undef LANES
+  gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+  for (int isa = 0; isa < SPH_ISA_COUNT; isa++) {
+    if (sph_cpu_isa(sph_cpu_isa_name(isa), NULL) != isa) continue;
+    double off = 0;
+    for (int n = 0; n < 20000; n++) {
+      double a[KERNEL_LANES] = {0}, root[KERNEL_LANES];
+      for (int lane = 1; lane < KERNEL_LANES; lane++)
+        a[lane] = exp((n % 2 ? 600 : 3) * (2 * gsl_rng_uniform(random) - 1));
+      roots_of[isa](a, root);
+      assert_true(root[0] == 0);
+      for (int lane = 1; lane < KERNEL_LANES; lane++)
+        off = fmax(off, fabs(root[lane] / sqrt(a[lane]) - 1));
+    }
+    print_message("# roots, %s: %.2g\n", sph_cpu_isa_name(isa), off);
+    assert_true(off <= 4.5e-16);
+  }
+  gsl_rng_free(random);
+}
+
 /* Random q of [0, 4), half of them near 0, 1, 2, 3, by every instruction set. */
 static void at_random(void **state)
 {
   (void)state;
   static kernel_lanes *const lanes[SPH_ISA_COUNT] = {
-#define LANES(isa) [SPH_ISA_##isa] = kernel_lanes_##isa,
-      SPH_ISA_BUILT(LANES)};
+#define LANES(isa, loops) [SPH_ISA_##isa] = kernel_lanes_##loops,
+      SPH_ISA_BUILT_FUSED(LANES)};
+#undef LANES
   gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
   int tried = 0;
   for (int isa = 0; isa < SPH_ISA_COUNT; isa++) {
@@ -447,10 +476,10 @@ static void facts(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(table),     cmocka_unit_test(integral),  cmocka_unit_test(derivatives),
-      cmocka_unit_test(support),   cmocka_unit_test(self),      cmocka_unit_test(f_at),
-      cmocka_unit_test(at_random), cmocka_unit_test(deviation), cmocka_unit_test(transform),
-      cmocka_unit_test(lattices),  cmocka_unit_test(facts),
+      cmocka_unit_test(table),     cmocka_unit_test(integral), cmocka_unit_test(derivatives),
+      cmocka_unit_test(support),   cmocka_unit_test(self),     cmocka_unit_test(f_at),
+      cmocka_unit_test(at_random), cmocka_unit_test(roots),    cmocka_unit_test(deviation),
+      cmocka_unit_test(transform), cmocka_unit_test(lattices), cmocka_unit_test(facts),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
