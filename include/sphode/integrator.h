@@ -138,12 +138,13 @@ enum sph_bound {
   SPH_BOUND_VISCOUS, /* laminar viscosity */
   SPH_BOUND_FORCE,
   SPH_BOUND_CONDUCTION,
-  SPH_BOUND_DRAG,   /* between dust and fluids */
-  SPH_BOUND_SWITCH, /* alpha of an artificial viscosity that rises */
-  SPH_BOUND_ERROR,  /* error control */
-  SPH_BOUND_STOP,   /* an exact stop time */
-  SPH_BOUND_USER,   /* dt_max, dt_fixed or a user's term */
-  SPH_BOUND_RETRY,  /* halved after a step that was not admissible */
+  SPH_BOUND_DIFFUSION, /* of scalars */
+  SPH_BOUND_DRAG,      /* between dust and fluids */
+  SPH_BOUND_SWITCH,    /* alpha of an artificial viscosity that rises */
+  SPH_BOUND_ERROR,     /* error control */
+  SPH_BOUND_STOP,      /* an exact stop time */
+  SPH_BOUND_USER,      /* dt_max, dt_fixed or a user's term */
+  SPH_BOUND_RETRY,     /* halved after a step that was not admissible */
   SPH_BOUND_COUNT
 };
 SPH_API const char *sph_bound_name(int bound); /* "cfl", "viscous", ... */

@@ -75,6 +75,12 @@ typedef struct sph_scalar {
   int per_volume;   /* implicit pairs exchange 0: amounts per mass; 1: amounts per volume */
 } sph_scalar;
 
+/* A number of one group, see sph_term_scalar_diffusion. */
+typedef struct sph_group_value {
+  const char *group; /* its name */
+  double value;
+} sph_group_value;
+
 /* How the rates of a term change with what they act on, where the term is implicit: add to those
  * that are not NULL, [n] of the particles or of the tile.  Rates that decay, and exchange between
  * pairs:
@@ -117,6 +123,10 @@ struct sph_term {
                              transport-velocity: */
   double background, time; /* p_b [Pa], tau [s] */
   long steps;              /* shifting: between steps, every so many; 0: a rate */
+  double diffusivity; /* scalar-diffusion: D >= 0 [m^2/s] of fluids without one of their own; */
+  /* D of fluids [m^2/s], the scalar at the surface of walls, [by_groups]; copied */
+  const sph_group_value *by_group;
+  int by_groups;
   /* continuity of form phi: fills phi[n] > 0 instead of rho^exponent, of fluids and walls (whose
    * rates are NULL). */
   void (*phi)(const sph_term *term, const sph_particles *particles, double *phi);
@@ -207,6 +217,15 @@ SPH_API sph_term sph_term_conduction(void);
 /* Heating [W/kg] of all groups with an energy: power(ctx, x, t). */
 SPH_API sph_term sph_term_heat_source(double (*power)(void *ctx, const double x[3], double t),
                                       void *ctx);
+/* A scalar s per mass that is carried along and diffuses, one a term:
+ *
+ *   ds_i/dt = sum m_j/(rho_i rho_j) 4 k_i k_j/(k_i + k_j) (s_i - s_j) F,  k = rho D,
+ *
+ * which keeps sum m s and never makes an extreme (Brookshaw 1985; Cleary & Monaghan 1999).  D =
+ * diffusivity >= 0 [m^2/s], 0: only carried along.  Set in what it returns: by_group, other D of
+ * fluids and the s of surfaces of walls (s_j = 2 s_wall - s_i; other walls let nothing through);
+ * body and ctx, a source that adds to ds.  The term has the name of its scalar. */
+SPH_API sph_term sph_term_scalar_diffusion(sph_scalar scalar, double diffusivity);
 /* XSPH (Monaghan 1989): dx_i/dt = v_i - epsilon sum m_j/rho_ij v_ij W_ij; 0 <= epsilon <= 1,
  * usually up to 0.5. */
 SPH_API sph_term sph_term_xsph(double epsilon);

@@ -8,6 +8,7 @@
 #include "case_event.h"
 #include "case_material.h"
 #include "case_path.h"
+#include "case_scalar.h"
 #include "case_schema.h"
 #include "case_shape.h"
 #include "case_source.h"
@@ -520,6 +521,7 @@ static int build_parts(builder *b)
     status = build_group(b, node);
   for (node = child_of(root, "terms")->first; node && !status; node = node->next)
     status = add_term(b, node);
+  if (!status) status = sph_case_scalar_add(b->c, b->sim, b->error);
   for (node = child_of(root, "groups")->first; node && !status; node = node->next)
     status = check_scales(b, node);
   if (!status && (node = child_of(root, "density_reset"))) status = add_reset(b, node);

@@ -10,6 +10,7 @@
 #include "case_curve.h"
 #include "case_event.h"
 #include "case_material.h"
+#include "case_scalar.h"
 #include "case_schema.h"
 #include "case_solution.h"
 #include "sphode/case.h"
@@ -177,7 +178,7 @@ static int check_texts(sph_case *c, const sph_case_key *key, sph_case_node *node
 
 /* ---- parameters */
 
-static int check_name(sph_case *c, const sph_case_node *node)
+int sph_case_check_name(sph_case *c, const sph_case_node *node)
 {
   static const char *const taken[] = {"x", "y", "z", "t", "pi", "largest"};
   const char *name = node->key;
@@ -227,7 +228,8 @@ static int check_parameters(sph_case *c, const sph_case_key *key, sph_case_node 
   for (sph_case_node *child = node->first; child; child = child->next) {
     sph_case_value value;
     const sph_case_key one = {.name = child->key};
-    if (check_name(c, child) || not_scalar(c, &one, child, "a number")) return SPH_ERR_PARSE;
+    if (sph_case_check_name(c, child) || not_scalar(c, &one, child, "a number"))
+      return SPH_ERR_PARSE;
     if (c->n >= SPH_CASE_NAMES - 1) return FAIL_KEY(child, "more than %d parameters", c->n);
     if (sph_case_value_evaluate(child->text, c->names, c->n, &value))
       return fail_parameter(c, child, &value);
@@ -303,6 +305,7 @@ static int check_value(sph_case *c, const sph_case_key *key, sph_case_node *node
   case SPH_CASE_FORMULAS_T: return check_list(c, key, SPH_CASE_FORMULA_T, c->dim, node);
   case SPH_CASE_MOMENTS_T: return check_list(c, key, SPH_CASE_MOMENT_T, c->dim, node);
   case SPH_CASE_TEXTS_T: return check_texts(c, key, node);
+  case SPH_CASE_SOURCE_T: return not_scalar(c, key, node, "an expression");
   case SPH_CASE_FIELDS_T: return check_list(c, key, SPH_CASE_FIELD_T, c->dim, node);
   }
   return SPH_ERR_STATE;
@@ -510,7 +513,7 @@ static int check_tables(sph_case *c)
   sph_case_node *tables = sph_case_reader_find(c->root, "tables");
   if (tables && check_value(c, find_key("case", "tables"), tables)) return c->error->status;
   for (sph_case_node *one = tables ? tables->first : NULL; one; one = one->next)
-    if (check_name(c, one)) return c->error->status;
+    if (sph_case_check_name(c, one)) return c->error->status;
   return sph_case_table_read_all(c);
 }
 
@@ -664,5 +667,6 @@ int sph_case_check(sph_case *c)
   if (!status) status = check_periodic(c);
   if (!status) status = check_hydrostatic(c);
   if (!status) status = check_outputs(c);
+  if (!status) status = sph_case_scalar_check(c);
   return status ? status : check_forms(c);
 }

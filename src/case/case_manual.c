@@ -59,7 +59,8 @@ static const char *type_of(const sph_case_key *key)
                                       "vector of expressions",
                                       "vector of expressions in t",
                                       "expression in t",
-                                      "text or list of texts"};
+                                      "text or list of texts",
+                                      "expression"};
   return words[key->type];
 }
 

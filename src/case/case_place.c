@@ -33,7 +33,8 @@ int sph_case_place(const sph_case *c, const char *message, char *place, size_t s
                {"event ", child_of(c->root, "events")},
                {"the first of ", groups},
                {"group ", groups},
-               {"wall ", groups}};
+               {"wall ", groups},
+               {"term ", child_of(c->root, "scalars")}};
   const sph_case_node *node = NULL;
   for (size_t k = 0; k < sizeof table / sizeof *table && !node; k++)
     node = named(table[k].map, message, table[k].word);

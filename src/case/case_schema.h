@@ -27,7 +27,8 @@ enum sph_case_type {
   SPH_CASE_FORMULAS_T, /* dim of them */
   SPH_CASE_MOMENTS_T,  /* dim expressions in t and the tables */
   SPH_CASE_MOMENT_T,   /* one of these */
-  SPH_CASE_TEXTS_T     /* a text or a list of them */
+  SPH_CASE_TEXTS_T,    /* a text or a list of them */
+  SPH_CASE_SOURCE_T    /* an expression in x, y, z, t, the tables and fields: case_source.h */
 };
 
 typedef struct sph_case_mapping {
@@ -69,6 +70,8 @@ const char *sph_case_schema_choice(const sph_case_key *key, int k, char word[80]
 /* Checks the tree of c, evaluates its numbers, adds the defaults; a status, the reason in
  * c->error. */
 int sph_case_check(sph_case *c); /* case_check.c */
+/* Can the key be a name in expressions? */
+int sph_case_check_name(sph_case *c, const sph_case_node *node);
 /* Records "path:line:column: ..."; the key's place or the value's (value == 1), `column`
  * characters into it. */
 int sph_case_schema_fail(const sph_case *c, sph_error *error, const sph_case_node *node, int value,

@@ -98,6 +98,7 @@ static void add_type(sph_text *text, const sph_case_key *key)
   case SPH_CASE_POINTS_T: add_list(text, key, one_pair, 3, 0); break;
   case SPH_CASE_FIELD_T:
   case SPH_CASE_FORMULA_T:
+  case SPH_CASE_SOURCE_T:
   case SPH_CASE_MOMENT_T: add_expression(text); break;
   case SPH_CASE_FIELDS_T:
   case SPH_CASE_FORMULAS_T:

@@ -478,6 +478,12 @@ sph_case_formula *sph_case_value_formula_create(const char *text, const sph_case
 int sph_case_value_formula_at(sph_case_formula *it, long count, const double *const x[], double t,
                               double *out)
 {
+  return sph_case_value_formula_with(it, count, x, t, 0, NULL, out);
+}
+
+int sph_case_value_formula_with(sph_case_formula *it, long count, const double *const x[], double t,
+                                int fields, const double *const field[], double *out)
+{
   int status = SPH_OK;
   pthread_mutex_lock(&lock);
   it->f.values[it->first + it->dim] = t;
@@ -485,6 +491,7 @@ int sph_case_value_formula_at(sph_case_formula *it, long count, const double *co
     if (it->names[k].table) it->f.values[k] = sph_case_table_at(it->names[k].table, t);
   for (long i = 0; !status && i < count; i++) {
     for (int d = 0; d < it->dim; d++) it->f.values[it->first + d] = x[d][i];
+    for (int k = 0; k < fields; k++) it->f.values[k] = field[k][i];
     out[i] = mupEval(it->parser);
     if (mupError(it->parser) || !isfinite(out[i])) status = SPH_ERR_ARGUMENT;
   }

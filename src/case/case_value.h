@@ -45,6 +45,9 @@ sph_case_formula *sph_case_value_formula_create(const char *text, const sph_case
 /* out[count], SI, at x[d][count] [m], t [s]; SPH_ERR_ARGUMENT where a value is not finite. */
 int sph_case_value_formula_at(sph_case_formula *formula, long count, const double *const x[],
                               double t, double *out);
+/* The same, the first `fields` of its names being field[k][count]. */
+int sph_case_value_formula_with(sph_case_formula *formula, long count, const double *const x[],
+                                double t, int fields, const double *const field[], double *out);
 void sph_case_value_formula_free(void *formula);
 
 #endif

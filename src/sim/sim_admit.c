@@ -10,6 +10,7 @@
 #include "sim_extremes.h"
 #include "sim_failure.h"
 #include "sim_rhs.h"
+#include "term_scalar_diffusion.h"
 
 enum { PARALLEL_MIN = 4096 };
 
@@ -187,6 +188,19 @@ static double conduction(const sph_evaluation *e, const sph_group *group, const 
   return 0.125 * sim->h * sim->h * x->lightest * group->eos.c_v / group->conductivity;
 }
 
+/* 0.125 h^2/D of scalars. */
+static double diffusion(const sph_evaluation *e, const sph_group *group)
+{
+  const sph_term_set *set = &e->sim->terms;
+  double D = 0;
+  for (int k = 0; k < set->called; k++) {
+    const sph_term *term = &set->call[k].term;
+    if (e->part->limit_called >> k & 1)
+      D = fmax(D, sph_term_scalar_diffusion_of(term, group->name, term->diffusivity));
+  }
+  return D > 0 ? 0.125 * e->sim->h * e->sim->h / D : INFINITY;
+}
+
 /* Half of the time in which a relative velocity decays, which leapfrog is just stable for. */
 static double drag(const sph_evaluation *e)
 {
@@ -219,6 +233,7 @@ int sph_sim_admit(sph_evaluation *e)
     lower(&limit[SPH_BOUND_CFL], slowest(e, group, &x));
     if (!group->eos.dust) lower(&limit[SPH_BOUND_VISCOUS], viscous(e, &x));
     lower(&limit[SPH_BOUND_CONDUCTION], conduction(e, group, &x));
+    lower(&limit[SPH_BOUND_DIFFUSION], diffusion(e, group));
     if (x.a2 > 0) lower(&limit[SPH_BOUND_FORCE], 0.25 * sqrt(sim->h / sqrt(x.a2)));
   }
   limit[SPH_BOUND_DRAG] = drag(e);

@@ -80,6 +80,6 @@ int sph_sim_dominant(double t, N_Vector y, double *lambda, void *ctx)
   if ((terms & (SPH_VISCOUS | SPH_DRAG))) *lambda = largest_of(&e, SPH_COUPLING_VISCOSITY);
   if (terms & SPH_CONDUCTION) *lambda = fmax(*lambda, largest_of(&e, SPH_COUPLING_CONDUCTION));
   if (terms & SPH_DIFFUSION) *lambda = fmax(*lambda, largest_of(&e, SPH_COUPLING_DIFFUSION));
-  *lambda += waves_of(&e) + 2 / sim->limit[SPH_BOUND_USER];
+  *lambda += waves_of(&e) + 2 / sim->limit[SPH_BOUND_USER] + 2 / sim->limit[SPH_BOUND_DIFFUSION];
   return SPH_OK;
 }

@@ -169,6 +169,24 @@ static int check_shift(sph_sim *sim, const sph_group *group, const sph_group *fi
   return shift->advection ? check_advection(sim, group, first) : SPH_OK;
 }
 
+/* Groups that a scalar names, and their diffusivities. */
+static int check_scalar(sph_sim *sim, const sph_term *term)
+{
+  for (int k = 0; k < term->by_groups; k++) {
+    const sph_group_value *one = &term->by_group[k];
+    int g = 0;
+    while (g < sim->groups && strcmp(sim->group[g]->name, one->group) != 0) g++;
+    if (g == sim->groups)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT, "term %s: there is no group %s", term->name,
+                          one->group);
+    if (!sim->group[g]->wall && one->value < 0)
+      return sph_sim_fail(sim, SPH_ERR_ARGUMENT,
+                          "term %s: diffusivity in %s = %g m^2/s; right is >= 0", term->name,
+                          one->group, one->value);
+  }
+  return SPH_OK;
+}
+
 static int check_terms(sph_sim *sim)
 {
   double viscosity = 0, conductivity = 0;
@@ -201,6 +219,8 @@ static int check_terms(sph_sim *sim)
   if (!status && (sim->terms.bits & SPH_DRAG) && !dusty)
     status = sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                           "drag: there is no dust: a group with equation of state sph_eos_dust");
+  for (int k = 0; !status && k < sim->terms.called; k++)
+    status = check_scalar(sim, &sim->terms.call[k].term);
   return status;
 }
 

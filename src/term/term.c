@@ -22,6 +22,8 @@ static const struct {
     {"conduction", "du_i = sum m_j/(rho_i rho_j) 4 kappa_i kappa_j/(kappa_i + kappa_j) "
                    "(T_i - T_j) F"},
     {"heat-source", "du_i = Q(x_i, t)"},
+    {"scalar-diffusion", "ds_i = sum m_j/(rho_i rho_j) 4 k_i k_j/(k_i + k_j) (s_i - s_j) F, "
+                         "k = rho D"},
     {"xsph", "d r_i/dt = v_i - epsilon sum m_j/rho_ij v_ij W_ij"},
     {"delta", "d rho_i/dt += delta h c0 sum V_j psi_ij.grad W, psi_ij = "
               "2 (rho_j - rho_i) (r_j - r_i)/r^2 (molteni), "

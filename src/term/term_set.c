@@ -4,7 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "memory.h"
 #include "term_part.h"
+#include "term_scalar_diffusion.h"
 
 static int not_below_zero(const char *term, const char *name, double value, sph_error *error)
 {
@@ -396,12 +398,53 @@ static int check_called(const sph_term_set *set, const sph_term *term, sph_error
   return !status && term->scalar.name ? check_scalar(set, term, error) : status;
 }
 
+/* D of a scalar, and the numbers of its groups. */
+static int check_groups(const sph_term *term, sph_error *error)
+{
+  int status = not_below_zero(term->name, "diffusivity", term->diffusivity, error);
+  for (int k = 0; !status && k < term->by_groups; k++) {
+    const sph_group_value *one = &term->by_group[k];
+    if (!one->group)
+      status =
+          sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: a value of no group (NULL)", term->name);
+    else if (!isfinite(one->value))
+      status = sph_error_set(error, SPH_ERR_ARGUMENT, "term %s: group %s: %g is not finite",
+                             term->name, one->group, one->value);
+  }
+  return status;
+}
+
+/* A copy, with the names behind it. */
+static int keep_groups(const sph_term *term, sph_group_value **kept, sph_error *error)
+{
+  size_t letters = 0;
+  if (term->by_groups <= 0) return SPH_OK;
+  const size_t n = (size_t)term->by_groups;
+  for (size_t k = 0; k < n; k++) letters += strlen(term->by_group[k].group) + 1;
+  *kept = sph_memory_new(n * sizeof **kept + letters, 1, "the groups of a scalar", error);
+  if (!*kept) return SPH_ERR_MEMORY;
+  char *text = (char *)(*kept + n);
+  for (size_t k = 0; k < n; k++) {
+    const size_t length = strlen(term->by_group[k].group) + 1;
+    (*kept)[k] =
+        (sph_group_value){memcpy(text, term->by_group[k].group, length), term->by_group[k].value};
+    text += length;
+  }
+  return SPH_OK;
+}
+
 static int add_called(sph_term_set *set, const sph_term *term, sph_error *error)
 {
+  sph_group_value *by_group = NULL;
   int status = check_called(set, term, error);
+  if (!status) status = check_groups(term, error);
+  if (!status) status = keep_groups(term, &by_group, error);
   if (status) return status;
   sph_called_term *kept = &set->call[set->called++];
+  kept->by_group = by_group;
   kept->term = *term;
+  kept->term.by_group = by_group;
+  sph_term_scalar_diffusion_settle(&kept->term);
   snprintf(kept->name, sizeof kept->name, "%s", term->name);
   snprintf(kept->reads, sizeof kept->reads, "%s", term->reads ? term->reads : "");
   kept->term.name = kept->name;
@@ -416,7 +459,7 @@ static int add_called(sph_term_set *set, const sph_term *term, sph_error *error)
     kept->term.scalar.name = set->scalar[kept->scalar].name;
     kept->term.scalar.unit = set->scalar[kept->scalar].unit;
   }
-  set->pairs += term->pair != NULL;
+  set->pairs += kept->term.pair != NULL;
   set->heats += !strcmp(term->name, "heat-source");
   return SPH_OK;
 }
@@ -578,8 +621,10 @@ int sph_term_set_check(const sph_term_set *set, sph_error *error)
 
 void sph_term_set_free(sph_term_set *set)
 {
-  for (int k = 0; k < set->called; k++)
+  for (int k = 0; k < set->called; k++) {
     if (set->call[k].term.free) set->call[k].term.free(set->call[k].term.ctx);
+    sph_memory_free(set->call[k].by_group);
+  }
   if (set->phi.phi && set->phi.free) set->phi.free(set->phi.ctx);
   set->phi = (sph_term){0};
   set->called = 0;

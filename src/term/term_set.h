@@ -25,9 +25,10 @@ enum sph_term_changes { SPH_CHANGES_VELOCITY = 1, SPH_CHANGES_ENERGY = 2, SPH_CH
 typedef struct sph_called_term {
   sph_term term;
   char name[SPH_TERM_NAME_MAX], reads[SPH_TERM_READS_MAX], adds[SPH_TERM_READS_MAX];
-  int scalar;       /* its number among the scalars, or -1 */
-  int part;         /* enum sph_term_part_number */
-  unsigned changes; /* where it may be implicit: enum sph_term_changes */
+  sph_group_value *by_group; /* what term.by_group is, owned; the names behind it */
+  int scalar;                /* its number among the scalars, or -1 */
+  int part;                  /* enum sph_term_part_number */
+  unsigned changes;          /* where it may be implicit: enum sph_term_changes */
 } sph_called_term;
 
 typedef struct sph_scalar_kept {

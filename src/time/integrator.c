@@ -214,8 +214,8 @@ int sph_integrator_limit(sph_integrator *it, double t, N_Vector y)
   int status = it->problem.limits ? it->problem.limits(t, y, &limit, it->problem.ctx) : SPH_OK;
   limit.dt[SPH_BOUND_CFL] *= it->def.cfl * it->info.stability;
   if (it->info.wants & SPH_WANTS_DOMINANT) /* stages do what shorter steps would */
-    limit.dt[SPH_BOUND_VISCOUS] = limit.dt[SPH_BOUND_CONDUCTION] = limit.dt[SPH_BOUND_DRAG] =
-        INFINITY;
+    limit.dt[SPH_BOUND_VISCOUS] = limit.dt[SPH_BOUND_CONDUCTION] = limit.dt[SPH_BOUND_DIFFUSION] =
+        limit.dt[SPH_BOUND_DRAG] = INFINITY;
   if (it->def.dt_max > 0) limit.dt[SPH_BOUND_USER] = fmin(limit.dt[SPH_BOUND_USER], it->def.dt_max);
   it->limit = INFINITY;
   it->cause = SPH_BOUND_USER;

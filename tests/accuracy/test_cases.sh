@@ -20,6 +20,9 @@ for case in dusty-box-2d dusty-wave-1d couette-low-re-2d heat-stiff-2d heat-slab
   ok $? "$case"
 done
 
+run dye taylor-green-dye-2d --set parameters.dx=L/40
+ok $? "dye in Taylor-Green vortices"
+
 # Sections through a coarse cavity, before it is steady: mean of all snapshots in the window.
 run cavity lid-driven-cavity-2d --set parameters.n=20 --set "run.end=12*L/U" --set "compare.0.window=[8, 12]" \
   --set "compare.1.window=[8, 12]" --set compare.0.bar=0.055 --set compare.1.bar=0.035

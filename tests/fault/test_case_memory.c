@@ -84,6 +84,7 @@ static void every_allocation_of_joined_files_may_fail(void **state)
       "    upper: [4]}}]}\n");
   put(directory, "a.yml",
       "include: [b.yml]\nterms: {continuity: , pressure: , body-force: {acceleration: [x_w]}}\n"
+      "scalars: {dye: {diffusivity: 1, source: -dye*x_w, walls: {t: {value: 1}}}}\n"
       "groups: {t: {kind: wall, density: 1, shapes: [{box: {lower: [-4], upper: [0]}}],\n"
       "  boundary: {motion: {displacement: [x_w*1 m]}}}}\n");
   snprintf(path, sizeof path, "%s/a.yml", directory);

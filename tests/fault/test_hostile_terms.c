@@ -91,6 +91,33 @@ static void parameters(void **state)
           "term heat-source: no power function (NULL)");
 }
 
+static sph_term salt(double D, const sph_group_value *by_group, int n)
+{
+  sph_term term = sph_term_scalar_diffusion((sph_scalar){.name = "salt", .scale = 1}, D);
+  term.by_group = by_group;
+  term.by_groups = n;
+  return term;
+}
+
+static void scalars_that_diffuse(void **state)
+{
+  (void)state;
+  refused(liquid(), salt(-1, NULL, 0),
+          "term salt: diffusivity = -1; right is a finite number >= 0");
+  refused(liquid(), salt(NAN, NULL, 0),
+          "term salt: diffusivity = nan; right is a finite number >= 0");
+  refused(liquid(), salt(1, &(sph_group_value){NULL, 1}, 1),
+          "term salt: a value of no group (NULL)");
+  refused(liquid(), salt(1, &(sph_group_value){"floor", NAN}, 1),
+          "term salt: group floor: nan is not finite");
+  refused(liquid(), salt(1, &(sph_group_value){"ceiling", 1}, 1),
+          "term salt: there is no group ceiling");
+  refused(liquid(), salt(1, &(sph_group_value){"water", -1}, 1),
+          "term salt: diffusivity in water = -1 m^2/s; right is >= 0");
+  refused(liquid(), sph_term_scalar_diffusion((sph_scalar){.scale = 1}, 1),
+          "a term without a name");
+}
+
 /* ---- combinations ---- */
 
 static void refused_pair(subject s, sph_term first, sph_term second, const char *text)
@@ -646,6 +673,7 @@ static void changed_switch(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(scalars_that_diffuse),
       cmocka_unit_test(parameters),
       cmocka_unit_test(twice),
       cmocka_unit_test(rows),

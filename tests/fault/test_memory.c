@@ -117,6 +117,10 @@ static void add_scalar(sph_sim *sim)
 {
   sph_sim_add_term(sim, (sph_term){"dye", .body = decay, .pair = diffuse, .reads = "density",
                                    .scalar = {.name = "c", .scale = 1, .initial = 1}});
+  sph_term salt = sph_term_scalar_diffusion((sph_scalar){.name = "salt", .scale = 1}, 1e-3);
+  salt.by_group = &(sph_group_value){"floor", 1};
+  salt.by_groups = 1;
+  sph_sim_add_term(sim, salt);
 }
 
 /* All that can be implicit, or the fluid's waves fast. */

@@ -110,6 +110,25 @@ run 1 "$sphode" run root.yml -o root -q &&
   [[ -s root/failure.csv ]]
 ok $? "an acceleration that becomes not a number is told with its place, and leaves a failure.csv"
 
+# ---- scalars
+
+cat >salt.yml <<'END'
+include: block.yml
+scalars:
+  salt: {diffusivity: 0.01 m^2/s, initial: x/(1 m), source: "-0.5 1/s*salt*speed/(1 m/s)"}
+END
+run 0 "$sphode" run salt.yml -o whole-salt -q --set run.end=0.2s --set checkpoint.steps=20 --set checkpoint.keep=3 &&
+  cp -r whole-salt salt && rm "$(newest salt)" && run 0 "$sphode" restart salt -q &&
+  cmp salt/series.csv whole-salt/series.csv && grep -q salt_mean salt/series.csv
+ok $? "a scalar goes on with the same bits"
+run 0 "$sphode" restart salt -q --until 0.22s --set scalars.salt.diffusivity=0.02 &&
+  run 1 "$sphode" restart salt -q --until 0.24s --set "scalars.salt.initial=2" && grep -q "scalars.salt.initial (.*) cannot change" err
+ok $? "its diffusivity may change, its start not"
+sed 's/source: .*/source: "sqrt(0.1 - t\/(1 s))"}/' salt.yml >nan.yml
+run 1 "$sphode" run nan.yml -o salt-nan -q &&
+  grep -q "nan.yml:3:[0-9]*: salt: source 'sqrt(0.1 - t/(1 s))' is nan at t = 0.1" err
+ok $? "a source that becomes not a number is told with its place"
+
 # ---- signals
 
 stopped() { # SIGNAL, exit status: sent three times within a step
