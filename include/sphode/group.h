@@ -103,6 +103,10 @@ SPH_API void sph_group_set_column(sph_group *group, int axis, double surface, do
 /* Sets the pressure of every particle [count] through the inverse equation of state; keeps volumes,
  * scales masses.  Thermal groups: sets u at the present density instead. */
 SPH_API void sph_group_set_pressure(sph_group *group, const double *p);
+/* Sets the density of every particle [count] [kg/m^3]; keeps volumes, scales masses, and what the
+ * equation of state says of it is the pressure.  Thermal groups: u stays; set the pressure or the
+ * temperature behind it. */
+SPH_API void sph_group_set_density(sph_group *group, const double *rho);
 /* Sets u by the temperature of every particle [count] [K] at the present density; needs eos.c_v. */
 SPH_API void sph_group_set_temperature(sph_group *group, const double *T);
 

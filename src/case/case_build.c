@@ -333,9 +333,16 @@ static int set_initial(const builder *b, const sph_case_node *map)
     return fail(b, initial, "only one of pressure, energy, temperature, hydrostatic can be given");
   if (child_of(initial, "energy") && child_of(initial, "temperature"))
     return fail(b, initial, "only one of energy, temperature can be given");
+  if (barotropic && child_of(initial, "density") &&
+      (child_of(initial, "pressure") || child_of(initial, "hydrostatic")))
+    return fail(b, child_of(initial, "density"),
+                "density and the pressure of a liquid follow from each other; only one of density, "
+                "pressure, hydrostatic can be given");
   if ((node = child_of(initial, "velocity")))
     for (node = node->first; node && !status; node = node->next)
       status = write_field(b, group, "velocity", d++, node);
+  if (!status && (node = child_of(initial, "density"))) /* others are at this density */
+    status = set_by(b, group, node, sph_group_set_density);
   if (!status && (node = child_of(initial, "energy")))
     status = write_field(b, group, "energy", 0, node);
   if (!status && (node = child_of(initial, "hydrostatic")))

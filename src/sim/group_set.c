@@ -4,7 +4,7 @@
 #include "material_table.h"
 #include "sim_data.h"
 
-static int ready(const sph_group *group, const char *what)
+static int ready(const sph_group *group, const char *what, int inverse)
 {
   if (!group || !sph_sim_data_ok(group->sim)) return 0;
   if (group->sim->prepared)
@@ -13,7 +13,7 @@ static int ready(const sph_group *group, const char *what)
   else if (!group->has_eos)
     sph_sim_fail(group->sim, SPH_ERR_STATE, "group %s: set its equation of state before its %s",
                  group->name, what);
-  else if (!group->eos.density)
+  else if (inverse && !group->eos.density)
     sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
                  "group %s: equation of state %s has no inverse rho(p)", group->name,
                  group->eos.name);
@@ -55,7 +55,7 @@ static int has_pressure(const sph_eos *eos, double rho, double u, double p)
 
 void sph_group_set_pressure(sph_group *group, const double *p)
 {
-  if (!ready(group, "pressure")) return;
+  if (!ready(group, "pressure", 1)) return;
   if (!p) {
     sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s: no pressures (NULL)", group->name);
     return;
@@ -77,6 +77,28 @@ void sph_group_set_pressure(sph_group *group, const double *p)
   }
 }
 
+void sph_group_set_density(sph_group *group, const double *rho)
+{
+  if (!ready(group, "density", 0)) return;
+  if (!rho) {
+    sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s: no densities (NULL)", group->name);
+    return;
+  }
+  for (long i = 0; i < group->n; i++) {
+    double p, c = 0;
+    const int positive = rho[i] > 0 && rho[i] < INFINITY;
+    if (positive && !group->eos.thermal) group->eos.pressure(&group->eos, 1, &rho[i], NULL, &p, &c);
+    if (!positive || isnan(c)) {
+      sph_sim_fail(group->sim, SPH_ERR_ARGUMENT, "group %s, particle %ld: density %g kg/m^3; %s%s",
+                   group->name, i, rho[i],
+                   positive ? "no state of equation of state " : "right is > 0",
+                   positive ? group->eos.name : "");
+      return;
+    }
+    set_density(group, i, rho[i]);
+  }
+}
+
 /* d p/d z = rho g downwards from p at the surface, by Runge-Kutta of order 4 in depth: for any
  * inverse rho(p). */
 static double pressure_at(const sph_eos *eos, double p, double depth, double g)
@@ -95,13 +117,13 @@ static double pressure_at(const sph_eos *eos, double p, double depth, double g)
 
 void sph_group_set_hydrostatic(sph_group *group, int axis, double surface, double g)
 {
-  if (ready(group, "hydrostatic pressure"))
+  if (ready(group, "hydrostatic pressure", 1))
     sph_group_set_column(group, axis, surface, group->eos.p_background, g);
 }
 
 void sph_group_set_column(sph_group *group, int axis, double surface, double p_surface, double g)
 {
-  if (!ready(group, "hydrostatic pressure")) return;
+  if (!ready(group, "hydrostatic pressure", 1)) return;
   if (axis < 0 || axis >= group->dim || !isfinite(surface) || !isfinite(p_surface) ||
       !(isfinite(g) && g >= 0)) {
     sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
@@ -124,7 +146,7 @@ void sph_group_set_column(sph_group *group, int axis, double surface, double p_s
 
 void sph_group_set_temperature(sph_group *group, const double *T)
 {
-  if (!ready(group, "temperature")) return;
+  if (!ready(group, "temperature", 1)) return;
   if (!T || !(group->eos.c_v > 0)) {
     sph_sim_fail(group->sim, SPH_ERR_ARGUMENT,
                  T ? "group %s: equation of state %s has no temperature: set its specific "

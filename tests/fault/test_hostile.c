@@ -144,7 +144,7 @@ static void no_pointers(void **state)
 {
   (void)state;
   const double lo[] = {0, 0}, hi[] = {1, 1}, *const none[] = {NULL, NULL};
-  for (int k = 0; k < 9; k++) {
+  for (int k = 0; k < 10; k++) {
     small s = make();
     switch (k) {
     case 0: sph_group_add_box(s.water, NULL, hi, 1000); break;
@@ -156,6 +156,7 @@ static void no_pointers(void **state)
     case 6: sph_group_set_pressure(s.water, NULL); break;
     case 7: sph_sim_add_term(s.sim, sph_term_gravity(NULL)); break;
     case 8: sph_sim_add_term(s.sim, sph_term_delta(NULL, 0.1)); break;
+    case 9: sph_group_set_density(s.water, NULL); break;
     }
     if (sph_sim_status(s.sim) != SPH_ERR_ARGUMENT)
       fail_msg("NULL number %d: status %d", k, sph_sim_status(s.sim));
@@ -587,6 +588,7 @@ static void null_simulation(void **state)
   sph_group_set_column(NULL, 0, 0, 0, 0);
   sph_group_jitter(NULL, 0.1, 1);
   sph_group_set_pressure(NULL, NULL);
+  sph_group_set_density(NULL, NULL);
   sph_group_set_viscosity(NULL, 1), sph_group_set_conductivity(NULL, 1);
   sph_group_set_repulsion(NULL, 1);
   assert_true(sph_group_viscosity(NULL) == 0 && sph_group_conductivity(NULL) == 0);

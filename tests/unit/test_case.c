@@ -441,6 +441,38 @@ static void switches_of_viscosity(void **state)
   }
 }
 
+/* Of a liquid the pressure follows, in a gas the density is that at which pressure is taken. */
+static void density_at_the_start(void **state)
+{
+  static const char text[] =
+      "dimension: 1\nspacing: 0.1\ngroups:\n  water:\n    kind: fluid\n    density: 1000\n"
+      "    eos: {%s}\n    initial: {density: 1000 kg/m^3*(1 + 0.01*x/(1 m))%s}\n"
+      "    shapes: [{box: {lower: [0], upper: [1]}}]\n"
+      "terms: {continuity: , pressure: }\nrun: {end: 1}\n";
+  (void)state;
+  for (int gas = 0; gas < 2; gas++) {
+    char whole[500];
+    sph_error error = {0};
+    snprintf(whole, sizeof whole, text,
+             gas ? "ideal-gas: {gamma: 1.4}" : "linear: {sound_speed: 20}",
+             gas ? ", pressure: 5 kPa" : "");
+    sph_case *c = sph_case_read_text("density.yml", whole, strlen(whole), 0, NULL, &error);
+    sph_sim *sim = sph_case_build(c, 1, &error);
+    if (!sim || sph_sim_evaluate(sim)) fail_msg("%s%s", error.text, sph_sim_error(sim));
+    const sph_group *water = sph_sim_group(sim, "water");
+    const double *x = sph_group_read(water, "position", 0), *m = sph_group_read(water, "mass", 0);
+    const double *rho = sph_group_read(water, "density", 0);
+    const double *p = sph_group_read(water, "pressure", 0);
+    for (long i = 0; i < 10; i++) {
+      const double right = gas ? 5000 : 400 * 10 * x[i];
+      assert_true(fabs(rho[i] - 1000 - 10 * x[i]) <= 1e-9);
+      assert_true(fabs(m[i] - 0.1 * rho[i]) <= 1e-9 && fabs(p[i] - right) <= 1e-6);
+    }
+    sph_sim_free(sim);
+    sph_case_free(c);
+  }
+}
+
 static void heat_that_cannot_be(void **state)
 {
   static const char text[] = "dimension: 1\nspacing: 0.1\ngroups:\n  water:\n    kind: fluid\n"
@@ -631,6 +663,7 @@ int main(void)
       cmocka_unit_test(a_preset_without_that_sound_speed),
       cmocka_unit_test(switches_of_viscosity),
       cmocka_unit_test(heat_that_cannot_be),
+      cmocka_unit_test(density_at_the_start),
       cmocka_unit_test(a_wall_has_no_scales),
       cmocka_unit_test(words_of_the_library),
       cmocka_unit_test(broken_files_say_what_is_wrong),
