@@ -76,9 +76,9 @@ SPH_API void sph_shape_free(sph_shape *shape); /* NULL is fine */
 
 /* Particles that fit the shape: as many as its volume over dx^dim, the outermost half a spacing
  * from its surface, moved apart until h times the rms of the gradient of their concentration
- * sum V W (with images behind the surface) is at most `uniformity`. */
+ * sum V W (with what is behind the surface filled) is at most `uniformity`. */
 typedef struct sph_pack {
-  double uniformity; /* 0: 0.03; a lattice that is cut has 0.1 to 0.3 */
+  double uniformity; /* 0: 0.005; a lattice that is cut has 0.03 to 0.08 */
   int iterations;    /* at most, and no longer than they help; 0: 500 */
 } sph_pack;
 

@@ -1,11 +1,13 @@
 /* Packing.  Particles move down the gradient of their concentration C = sum V W, as by shifting
  * (Lind, Xu, Stansby & Rogers 2012, with the repulsion of near neighbours of Monaghan 2000):
  *
- *   dx_i = -h^2/4 sum_j V (1 + 0.2 (W_ij/W(dx))^4) grad_i W_ij,  at most dx/5,
+ *   dx_i = -h^2/4 [sum_j V (1 + 0.2 (W_ij/W(dx))^4) grad_i W_ij + w int grad_i W(x_i - x) dx],
  *
- * where those near the surface see images of themselves and each other behind it, and none comes
- * nearer to it than dx/2 (the idea of body-fitted packing: Colagrossi, Bouscasse, Antuono & Marrone
- * 2012).  A body holds its volume over dx^dim particles: the innermost places of the lattice. */
+ * at most dx/5; the integral goes over what is outside of the body, whatever its corners are, by
+ * cells of dx/2; w = 0.9 draws particles into the outermost layer, which else has gaps.  None comes
+ * nearer to the surface than dx/2 (the idea of body-fitted packing: Colagrossi, Bouscasse, Antuono
+ * & Marrone 2012).  A body holds its volume over dx^dim particles: the innermost places of the
+ * lattice. */
 #include "shape_pack.h"
 
 #include <math.h>
@@ -25,8 +27,11 @@ typedef struct packer {
   sph_neighbors *neighbors;
   int dim;
   double dx, h, reach, volume, w_dx;
-  long n, all, room;                 /* of x: the particles, then their images */
+  long n;
   double *x[3], *slope[3], *best[3]; /* best: the particles where they were most even */
+  double inside;                     /* volume */
+  long cells, room;                  /* outside: centres and volumes */
+  double *cell[4];
   sph_error *error;
 } packer;
 
@@ -77,31 +82,59 @@ static void hold(const packer *p, long i)
 /* The part of a cell of side s that is inside, as if the surface were flat in it. */
 static double part(double distance, double s) { return fmin(fmax(0.5 - distance / s, 0), 1); }
 
-/* By cells of a quarter of the spacing. */
-static double volume_of(const packer *p)
+/* w: with 1 the outermost layer is 3 % too thin, with 0.8 as much too dense. */
+static const double OUTSIDE = 0.9;
+
+/* What is done with the cell of side s around x; a status. */
+typedef int visiting(packer *p, const double x[3], double distance, double s);
+
+/* All cells of side s in the box around the body, `far` more at each side; farther outside than
+ * that, and inside by more than a cell, the distance may be that of a cell before. */
+static int visit_cells(packer *p, double s, double far, visiting *visit)
 {
-  const double s = p->dx / 4;
   const sph_shape *shape = p->shape;
   long cells[3] = {1, 1, 1};
-  double sum = 0;
+  int status = SPH_OK;
   for (int d = 0; d < p->dim; d++)
-    cells[d] = (long)ceil((shape->upper[d] - shape->lower[d]) / s) + 2;
+    cells[d] = (long)ceil((shape->upper[d] - shape->lower[d] + 2 * far) / s) + 2;
   for (long c = 0; c < cells[2]; c++)
     for (long b = 0; b < cells[1]; b++) {
       double known = 0, since = 0, now = 0;
-      for (long a = 0; a < cells[0]; a++, since += s) {
+      for (long a = 0; a < cells[0] && !status; a++, since += s) {
         const long k[3] = {a, b, c};
         double x[3] = {0};
-        for (int d = 0; d < p->dim; d++) x[d] = shape->lower[d] + ((double)k[d] - 0.5) * s;
-        if (since >= known) { /* no surface as far as that, but for half a cell */
+        for (int d = 0; d < p->dim; d++) x[d] = shape->lower[d] - far + ((double)k[d] - 0.5) * s;
+        if (since >= known) {
           now = depth(p, x);
-          known = fabs(now) - s;
+          known = now > 0 ? now - far - s : -now - s;
           since = 0;
         }
-        sum += part(now, s);
+        status = visit(p, x, now, s);
       }
     }
-  return sum * pow(s, p->dim);
+  return status;
+}
+
+static int add_inside(packer *p, const double x[3], double distance, double s)
+{
+  (void)x;
+  p->inside += part(distance, s) * pow(s, p->dim);
+  return SPH_OK;
+}
+
+static int add_outside(packer *p, const double x[3], double distance, double s)
+{
+  const double outside = 1 - part(distance, s);
+  if (!(outside > 0) || distance > p->reach) return SPH_OK;
+  const long room = p->room ? 2 * p->room : 1024;
+  for (int d = 0; p->cells == p->room && d < 4; d++)
+    if (sph_memory_grow((void **)&p->cell[d], (size_t)p->room, (size_t)room, sizeof(double),
+                        "the cells around a packing", p->error))
+      return SPH_ERR_MEMORY;
+  if (p->cells == p->room) p->room = room;
+  for (int d = 0; d < 3; d++) p->cell[d][p->cells] = x[d];
+  p->cell[3][p->cells++] = OUTSIDE * outside * pow(s, p->dim);
+  return SPH_OK;
 }
 
 /* ---- which places of the lattice */
@@ -145,52 +178,61 @@ static int choose(packer *p, long n, long count, double *const x[3])
 
 /* ---- one move */
 
-static int add_images(packer *p)
+/* Particles within the reach of each other, and of cells outside. */
+static int find_neighbors(packer *p)
 {
-  p->all = p->n;
-  for (long i = 0; i < p->n; i++) {
-    double x[3], n[3];
-    get(p, i, x);
-    const double d = depth(p, x);
-    if (d < -p->reach / 2 || !normal(p, x, n)) continue;
-    for (int c = 0; c < p->dim; c++) p->x[c][p->all] = x[c] - 2 * d * n[c];
-    p->all++;
-  }
-  int status = sph_neighbors_sort(p->neighbors, 0, p->all, (const double *const *)p->x, p->error);
-  return status ? status : sph_neighbors_build(p->neighbors, 0, 0, p->error);
+  const double *const *x = (const double *const *)p->x;
+  int status = sph_neighbors_sort(p->neighbors, 0, p->n, x, p->error);
+  if (!status) status = sph_neighbors_build(p->neighbors, 0, 0, p->error);
+  return status ? status : sph_neighbors_build(p->neighbors, 0, 1, p->error);
 }
 
-static void add_pair(const packer *p, long i, long j)
+/* V grad W of what is at x, and the repulsion if that is a particle. */
+static void add_pair(const packer *p, long i, double *const x[3], long j, double V, int particle)
 {
-  double r[3] = {0}, r2 = 0;
+  double r[3] = {0}, r2 = 0, crowd = 0;
   for (int d = 0; d < p->dim; d++) {
-    r[d] = p->x[d][i] - p->x[d][j];
+    r[d] = p->x[d][i] - x[d][j];
     r2 += r[d] * r[d];
   }
   const double distance = sqrt(r2);
-  if (i == j || distance >= p->reach || !(distance > 0)) return;
-  const double crowd = sph_kernel_w(p->kernel, p->dim, distance, p->h) / p->w_dx;
-  const double F = p->volume * (1 + 0.2 * crowd * crowd * crowd * crowd) *
+  if (distance >= p->reach || !(distance > 0)) return;
+  if (particle) crowd = sph_kernel_w(p->kernel, p->dim, distance, p->h) / p->w_dx;
+  const double F = V * (1 + 0.2 * crowd * crowd * crowd * crowd) *
                    sph_kernel_f(p->kernel, p->dim, distance, p->h);
   for (int d = 0; d < p->dim; d++) p->slope[d][i] += F * r[d];
+}
+
+/* Those that are held at half a spacing, and pushed outwards: what is left is along the surface. */
+static void stay(const packer *p, long i)
+{
+  double x[3], n[3], out = 0;
+  get(p, i, x);
+  if (depth(p, x) < -0.501 * p->dx || !normal(p, x, n)) return;
+  for (int d = 0; d < p->dim; d++) out -= p->slope[d][i] * n[d];
+  for (int d = 0; d < p->dim && out > 0; d++) p->slope[d][i] += out * n[d];
 }
 
 /* The gradient at the particles; h times its rms. */
 static double slopes(const packer *p)
 {
-  const sph_list list = sph_neighbors_list(p->neighbors, 0, 0);
-  const int *order = sph_neighbors_order(p->neighbors, 0);
+  const sph_list list[2] = {sph_neighbors_list(p->neighbors, 0, 0),
+                            sph_neighbors_list(p->neighbors, 0, 1)};
+  const int *order[2] = {sph_neighbors_order(p->neighbors, 0),
+                         sph_neighbors_order(p->neighbors, 1)};
   double sum = 0;
-  for (long s = 0; s < list.blocks; s++) {
-    const long i = order[s];
-    if (i >= p->n) continue;
+  for (long s = 0; s < p->n; s++) {
+    const long i = order[0][s];
     for (int d = 0; d < p->dim; d++) p->slope[d][i] = 0;
-    for (long k = list.first[s]; k < list.first[s + 1]; k++)
-      for (long m = 0; m < sph_run_count(list.runs[k]); m++)
-        add_pair(p, i, order[sph_run_start(list.runs[k]) + m]);
-  }
-  for (long i = 0; i < p->n; i++)
+    for (int of = 0; of < 2; of++)
+      for (long k = list[of].first[s]; k < list[of].first[s + 1]; k++)
+        for (long m = 0; m < sph_run_count(list[of].runs[k]); m++) {
+          const long j = order[of][sph_run_start(list[of].runs[k]) + m];
+          add_pair(p, i, of ? p->cell : p->x, j, of ? p->cell[3][j] : p->volume, !of);
+        }
+    stay(p, i);
     for (int d = 0; d < p->dim; d++) sum += p->slope[d][i] * p->slope[d][i];
+  }
   return p->h * sqrt(sum / (double)p->n);
 }
 
@@ -213,14 +255,14 @@ enum { STUCK = 50 }; /* moves without any use */
 static int relax(packer *p, const sph_pack *pack, sph_packing *info)
 {
   const int most = pack->iterations > 0 ? pack->iterations : 500;
-  const double wanted = pack->uniformity > 0 ? pack->uniformity : 0.03;
-  int status = add_images(p);
+  const double wanted = pack->uniformity > 0 ? pack->uniformity : SPH_PACK_UNIFORMITY;
+  int status = find_neighbors(p);
   info->before = info->uniformity = status ? 0 : slopes(p);
   for (long i = 0; i < p->n; i++) hold(p, i);
   double best = INFINITY;
   int since = 0; /* moves that made it no better */
   for (info->iterations = 0; info->iterations < most && !status; info->iterations++) {
-    status = add_images(p);
+    status = find_neighbors(p);
     if (status) break;
     info->uniformity = slopes(p);
     since = info->uniformity < 0.99 * best ? 0 : since + 1;
@@ -249,9 +291,8 @@ static int make(packer *p, const sph_shape *shape, double dx, long n)
   p->reach = sph_kernel_support(p->kernel) * p->h;
   p->volume = pow(dx, p->dim);
   p->w_dx = sph_kernel_w(p->kernel, p->dim, dx, p->h);
-  p->room = 2 * n;
   for (int d = 0; d < p->dim; d++) {
-    p->x[d] = SPH_NEW(double, p->room, "a packing", p->error);
+    p->x[d] = SPH_NEW(double, n, "a packing", p->error);
     p->slope[d] = SPH_NEW(double, n, "a packing", p->error);
     p->best[d] = SPH_NEW(double, n, "a packing", p->error);
     if (!p->x[d] || !p->slope[d] || !p->best[d]) return SPH_ERR_MEMORY;
@@ -269,6 +310,7 @@ static void clear(packer *p)
 {
   sph_neighbors_free(p->neighbors);
   sph_shape_sample_free(p->surface);
+  for (int d = 0; d < 4; d++) sph_memory_free(p->cell[d]);
   for (int d = 0; d < 3; d++) {
     sph_memory_free(p->x[d]);
     sph_memory_free(p->slope[d]);
@@ -284,9 +326,13 @@ int sph_shape_pack(const sph_shape *shape, double dx, const sph_pack *pack, long
   int status = make(&p, shape, dx, *n);
   *info = (sph_packing){0};
   if (!status) {
-    info->volume = volume_of(&p);
-    status = choose(&p, *n, (long)fmax(1, round(info->volume / p.volume)), x);
+    status = visit_cells(&p, dx / 4, 0, add_inside);
+    info->volume = p.inside;
   }
+  if (!status) status = visit_cells(&p, dx / 2, p.reach, add_outside);
+  if (!status)
+    status = sph_neighbors_sort(p.neighbors, 1, p.cells, (const double *const *)p.cell, p.error);
+  if (!status) status = choose(&p, *n, (long)fmax(1, round(info->volume / p.volume)), x);
   if (!status) status = relax(&p, pack, info);
   info->particles = p.n;
   for (int d = 0; d < p.dim && !status; d++) memcpy(x[d], p.best[d], (size_t)p.n * sizeof *x[d]);

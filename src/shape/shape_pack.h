@@ -4,6 +4,8 @@
 #define SPH_SHAPE_PACK_H
 #include "sphode/shape.h"
 
+#define SPH_PACK_UNIFORMITY 0.005 /* wanted unless told */
+
 /* x[d][*n] [m]: places of a lattice whose distance from the shape is at most dx; *n becomes the
  * number of those that are kept, and x where they are then.  Follows from its input alone.  A
  * status, the reason in error; one that has not settled is none (see info). */

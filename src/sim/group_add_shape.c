@@ -158,7 +158,8 @@ void sph_group_add_shape(sph_group *group, const sph_shape *shape, const sph_fil
     sph_group_add_points(group, f.n, (const double *const *)f.x, fill->rho0);
   group->shapes++;
   group->loose = loose;
-  if (fill->pack) group->packed_to = fill->pack->uniformity > 0 ? fill->pack->uniformity : 0.03;
+  if (fill->pack)
+    group->packed_to = fill->pack->uniformity > 0 ? fill->pack->uniformity : SPH_PACK_UNIFORMITY;
   for (int d = 0; d < group->dim && !status && sph_sim_data_ok(group->sim); d++)
     for (long i = before; i < group->n && fill->stretch[d] > 0; i++)
       group->own[SPH_MASS][0][i] *= fill->stretch[d];

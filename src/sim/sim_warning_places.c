@@ -74,7 +74,7 @@ static void find_far(sph_finder *f, const sph_sim *sim, const sph_group *fluid)
 static void find_uneven(sph_finder *f, const sph_group *group)
 {
   const sph_packing *p = &group->packing;
-  if (p->particles == 0 || p->settled || p->uniformity <= 2 * group->packed_to) return;
+  if (p->particles == 0 || p->settled || p->uniformity <= 4 * group->packed_to) return;
   sph_sim_warning_found(
       f, "%s: packed in %d moves to an unevenness of %.2g, not to %.2g as wanted; %s", group->name,
       p->iterations, p->uniformity, group->packed_to,

@@ -467,7 +467,7 @@ static void uneven(void **state)
     sph_sim_add_term(sim, sph_term_pressure());
     says(sim,
          k == 1 ? (const char *const[4]){NULL}
-                : (const char *const[4]){"water: packed in ", "not to 0.03 as wanted",
+                : (const char *const[4]){"water: packed in ", "not to 0.005 as wanted",
                                          k == 2 ? "no more were allowed; right are more iterations"
                                                 : "more moves did not help"});
   }
