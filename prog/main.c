@@ -99,15 +99,20 @@ static const command commands[] = {
      "      --spacing DX       kernels only: h, support, neighbors, error of each at that spacing "
      "[m]\n"
      "      --dim N            in 1, 2 or 3 dimensions (default: 2 and 3)\n"},
-    {"plot", "DIR", "Fnade", sph_prog_plot,
+    {"plot", "DIR", "FnadeW", sph_prog_plot,
      "draw a run again: its snapshots and comparisons, or curves of its tables",
      "      --field NAME       colour: velocity, pressure, density, energy, velocity_x, ...\n"
      "      --frames N         snapshots on the sheet\n"
+     "      --at T,T,...       those nearest to these times instead, as 0.1,250ms\n"
      "      --series LIST      instead columns of series.csv over time, as front,kinetic, to\n"
-     "                         DIR/series.png\n"
+     "                         DIR/series.png; a panel for each unit\n"
      "      --table FILE       of another table in DIR, as probe_line.csv, to DIR/probe_line.png;\n"
      "                         of a plane with --field COLUMN a map of it (--frames of them)\n"
-     "      --over COLUMN      over this column instead of the first, as points\n"},
+     "      --over COLUMN      over this column instead of the first, as points\n"
+     "\n"
+     "With --at, --table and --over draw profiles of a table at these times, a curve each, and\n"
+     "--series FIELD,... --over x, without a table, those of the particles of the snapshots, to\n"
+     "DIR/profiles.png.\n"},
     {"movie", "DIR", "oFEBAq", sph_prog_movie,
      "draw all snapshots of a run, as an mp4 or animated PNG",
      "      --field NAME       colour: velocity, pressure, density, energy, velocity_x, ...\n"
@@ -120,17 +125,20 @@ static const command commands[] = {
      "  -q, --quiet            nothing is told\n"
      "\n"
      "Wants gnuplot and ffmpeg.\n"},
-    {"export", "DIR", "ocvGHLSq", sph_prog_export,
+    {"export", "DIR", "ocvGHLSqO", sph_prog_export,
      "snapshots as files that other tools read: CSV, VTU, GADGET's HDF5, SPLASH's text",
      "  DIR is the directory of a run, or one of its snapshots.\n"
      "\n"
+     "      --format LIST      of csv, vtu, gadget, splash, with commas between; or one or more "
+     "of\n"
      "      --csv              a table a snapshot and kind, and times.csv: gnuplot, pandas\n"
      "      --vtu              VTK's XML, and series with their times, .pvd: ParaView, VisIt\n"
      "      --gadget           GADGET's HDF5 layout: yt, pynbody\n"
      "      --splash           columns of text with the names that SPLASH knows, and the time\n"
      "      --fields LIST      names with commas between, as velocity,density (default: all)\n"
      "      --float32          numbers of single precision\n"
-     "  -o, --output DIR       where to (default: DIR/csv, DIR/vtu, ...)\n"
+     "  -o, --output DIR       where to (default: DIR/csv, DIR/vtu, ...); of several formats to\n"
+     "                         csv, vtu, ... in it\n"
      "  -q, --quiet            nothing is told\n"},
     {"work-precision", "CASE.yml", "ostqfFITCRUNXM", sph_prog_work_precision,
      "what each integrator needs for which temporal error",
@@ -192,6 +200,7 @@ static const struct option options[] = {
     {"vtu", no_argument, NULL, 'v'},
     {"gadget", no_argument, NULL, 'G'},
     {"splash", no_argument, NULL, 'H'},
+    {"format", required_argument, NULL, 'O'},
     {"fields", required_argument, NULL, 'L'},
     {"float32", no_argument, NULL, 'S'},
     {"spacing", required_argument, NULL, 'P'},
@@ -201,6 +210,7 @@ static const struct option options[] = {
     {"series", required_argument, NULL, 'a'},
     {"table", required_argument, NULL, 'd'},
     {"over", required_argument, NULL, 'e'},
+    {"at", required_argument, NULL, 'W'},
     {"range", required_argument, NULL, 'E'},
     {"size", required_argument, NULL, 'B'},
     {"rate", required_argument, NULL, 'A'},
@@ -335,6 +345,7 @@ static int take(prog_options *o, int letter, const char *value)
   case 'v': o->vtu = 1; break;
   case 'G': o->gadget = 1; break;
   case 'H': o->splash = 1; break;
+  case 'O': o->format = value; break;
   case 'L': o->fields = value; break;
   case 'S': o->single = 1; break;
   case 'Q': o->q = value; break;
@@ -344,6 +355,7 @@ static int take(prog_options *o, int letter, const char *value)
   case 'a': o->series = value; break;
   case 'd': o->table = value; break;
   case 'e': o->over = value; break;
+  case 'W': o->at = value; break;
   case 'E': o->range = value; break;
   case 'B': o->size = value; break;
   case 'A': return number("rate", value, PROG_RATE, &o->rate);

@@ -31,11 +31,13 @@ typedef struct prog_options {
   int frames;          /* 0: that of the case */
   /* Curves instead: columns, the table in DIR (NULL: series.csv), what over (NULL: the first). */
   const char *series, *table, *over;
+  const char *at; /* times of pictures and profiles, "0.1,0.2 s"; NULL: not chosen */
   /* movie: NULL, 0: the defaults */
   const char *range, *size;
   int rate;
   /* export */
   int vtu, gadget, splash, single;
+  const char *format; /* "csv,vtu"; NULL: not given */
   const char *fields; /* NULL: all */
   /* work-precision: lists with commas between; NULL: the defaults. */
   const char *integrators, *tolerances, *cfl, *reference;
@@ -129,6 +131,8 @@ int sph_prog_progress_signal(void);
 int sph_prog_progress_over(const prog_progress *p);
 double sph_prog_progress_now(void); /* wall time [s] */
 
+/* The case of a run; NULL: a run without one, and the defaults. */
+sph_case *sph_prog_plot_of(const char *directory);
 /* Draws the pictures of a finished run with n comparisons, and prints their paths. */
 void sph_prog_plot_case(const sph_case *c, const char *directory, int n);
 

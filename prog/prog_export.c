@@ -4,6 +4,8 @@
 
 #include "prog.h"
 
+enum { FORMATS = 4 };
+
 /* A directory DIR/csv; beside a file. */
 static int directory_of(const char *path, const char *format, char to[4096])
 {
@@ -14,21 +16,58 @@ static int directory_of(const char *path, const char *format, char to[4096])
   return n < 4096 ? PROG_OK : sph_prog_error(PROG_FAILED, "%.60s...: path too long", path);
 }
 
-int sph_prog_export(const prog_options *o)
+static int is_listed(const char *list, const char *word)
+{
+  const size_t n = strlen(word);
+  for (const char *at = list; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL)
+    if (strcspn(at, ",") == n && !strncmp(at, word, n)) return 1;
+  return 0;
+}
+
+/* Which formats are wanted, by --format or by their own options; returns how many, or -1, told. */
+static int take_formats(const prog_options *o, const char *format[FORMATS])
+{
+  const char *name;
+  int n = 0, words = o->format ? 1 : 0, known = 0;
+  for (int k = 0; (name = sph_export_format(k)) && k < FORMATS; k++) {
+    const int own = (o->csv && !strcmp(name, "csv")) || (o->vtu && !strcmp(name, "vtu")) ||
+                    (o->gadget && !strcmp(name, "gadget")) ||
+                    (o->splash && !strcmp(name, "splash"));
+    const int listed = is_listed(o->format, name);
+    known += listed;
+    if (own || listed) format[n++] = name;
+  }
+  for (const char *at = o->format; at && (at = strchr(at, ',')); at++) words++;
+  if (n > 0 && words == known) return n;
+  return sph_prog_error(-1,
+                        "export%s%s wants some of csv, vtu, gadget, splash, with commas between",
+                        o->format ? " --format " : ": --format", o->format ? o->format : "");
+}
+
+static int export_one(const prog_options *o, const char *format, int several)
 {
   char directory[4096];
   sph_error error = {0};
-  if (o->csv + o->vtu + o->gadget + o->splash != 1)
-    return sph_prog_error(PROG_USAGE, "export wants one of --csv, --vtu, --gadget, --splash");
-  const char *format = o->csv ? "csv" : o->vtu ? "vtu" : o->gadget ? "gadget" : "splash";
   if (!o->output && directory_of(o->what, format, directory)) return PROG_FAILED;
+  if (o->output && snprintf(directory, sizeof directory, several ? "%s/%s" : "%s", o->output,
+                            format) >= (int)sizeof directory)
+    return sph_prog_error(PROG_FAILED, "%.60s...: path too long", o->output);
   const sph_export_def def = {.path = o->what,
                               .format = format,
-                              .directory = o->output ? o->output : directory,
+                              .directory = directory,
                               .fields = o->fields,
                               .single = o->single};
   int count = sph_export(&def, &error);
   if (count < 0) return sph_prog_error(PROG_FAILED, "%s", error.text);
   if (!o->quiet) printf("%d snapshot%s to %s\n", count, count == 1 ? "" : "s", def.directory);
   return PROG_OK;
+}
+
+int sph_prog_export(const prog_options *o)
+{
+  const char *format[FORMATS];
+  const int n = take_formats(o, format);
+  int status = n < 0 ? PROG_USAGE : PROG_OK;
+  for (int k = 0; k < n && !status; k++) status = export_one(o, format[k], n > 1);
+  return status;
 }

@@ -5,7 +5,7 @@
 
 #include "prog.h"
 
-enum { CURVES = 8, COMPARISONS = 64 };
+enum { COLUMNS = 8, CURVES = COLUMNS * PROG_FRAMES, COMPARISONS = 64 };
 
 static int report(int status, const char *png, const sph_error *error)
 {
@@ -35,8 +35,7 @@ void sph_prog_plot_case(const sph_case *c, const char *directory, int n)
   }
 }
 
-/* The case of a run; NULL: a run without one, and the defaults. */
-static sph_case *case_of(const char *directory)
+sph_case *sph_prog_plot_of(const char *directory)
 {
   char path[4096];
   sph_error none = {0};
@@ -53,37 +52,132 @@ static void name_table(const prog_options *o, char csv[4096], char png[4096])
            table);
 }
 
+/* --at: "0.1,250ms" are 0.1 and 0.25 s; time[PROG_FRAMES], returns how many, or -1, told. */
+static int take_times(const prog_options *o, double *time)
+{
+  int n = 0;
+  for (const char *at = o->at; at && (n == 0 || *at == ',');) {
+    char *end;
+    at += *at == ',';
+    const double t = strtod(at, &end);
+    int right = end != at && t >= 0 && t < 1e30 && n < PROG_FRAMES;
+    end += strspn(end, " ");
+    const double unit = !strncmp(end, "ms", 2) ? 1e-3 : 1;
+    end += unit < 1 ? 2 : *end == 's';
+    if (*end && *end != ',') right = 0;
+    if (!right)
+      return sph_prog_error(-1, "--at %s: wanted 1 to %d times with commas between, as 0.1,250ms",
+                            o->at, PROG_FRAMES);
+    time[n++] = t * unit;
+    at = end;
+  }
+  return n;
+}
+
 /* A table of places in a plane. */
-static int map(const prog_options *o)
+static int map(const prog_options *o, const double *time, int times)
 {
   char csv[4096], png[4096];
   sph_error error = {0};
   name_table(o, csv, png);
-  const int status = sph_plot_plane(csv, o->field, o->frames ? o->frames : 1, png, &error);
+  const int status = times ? sph_plot_plane_at(csv, o->field, time, times, png, &error)
+                           : sph_plot_plane(csv, o->field, o->frames ? o->frames : 1, png, &error);
+  return report(status, png, &error) ? PROG_FAILED : PROG_OK;
+}
+
+typedef struct curves {
+  int n, columns;
+  sph_plot_curve curve[CURVES];
+  char words[1000], path[PROG_FRAMES][4096];
+} curves;
+
+/* --series: a curve for each column, and each of the times (csv: the same table for all of them, or
+ * a snapshot for each). */
+static int take_columns(const prog_options *o, const double *time, int times, const char *csv,
+                        curves *c)
+{
+  char *rest = NULL;
+  if ((size_t)snprintf(c->words, sizeof c->words, "%s", o->series) >= sizeof c->words)
+    return sph_prog_error(PROG_USAGE, "plot: --series of more than %zu bytes", sizeof c->words - 1);
+  for (char *word = strtok_r(c->words, ",", &rest); word; word = strtok_r(NULL, ",", &rest)) {
+    if (c->columns++ == COLUMNS)
+      return sph_prog_error(PROG_USAGE, "plot: --series of more than %d columns", COLUMNS);
+    for (int k = 0; k < (times ? times : 1); k++)
+      c->curve[c->n++] = (sph_plot_curve){.csv = csv ? csv : c->path[k],
+                                          .x = o->over,
+                                          .y = word,
+                                          .at = csv && times ? &time[k] : NULL,
+                                          .points = !csv       ? 1
+                                                    : !o->over ? 0
+                                                    : times    ? 2
+                                                               : 1};
+  }
+  return PROG_OK;
+}
+
+static int draw_curves(const curves *c, const char *png)
+{
+  sph_error error = {0};
+  const int status = sph_plot_series(c->curve, c->n, &(sph_plot_def){.panels = 1}, png, &error);
   return report(status, png, &error) ? PROG_FAILED : PROG_OK;
 }
 
 /* Columns of a table of the run over another one. */
-static int curves(const prog_options *o)
+static int draw_table(const prog_options *o, const double *time, int times, curves *c)
 {
-  char csv[4096], png[4096], columns[1000], *rest = NULL;
-  sph_plot_curve curve[CURVES];
-  sph_error error = {0};
-  int n = 0;
+  char csv[4096], png[4096];
   if (!o->series)
     return sph_prog_error(PROG_USAGE, "plot: --table and --over want --series COLUMN,...%s",
                           o->table && !o->over ? ", or of a plane --field COLUMN" : "");
+  if (times && !o->over)
+    return sph_prog_error(PROG_USAGE, "plot: --at wants --over COLUMN where it is of a table");
   name_table(o, csv, png);
-  if ((size_t)snprintf(columns, sizeof columns, "%s", o->series) >= sizeof columns)
-    return sph_prog_error(PROG_USAGE, "plot: --series of more than %zu bytes", sizeof columns - 1);
-  for (char *word = strtok_r(columns, ",", &rest); word; word = strtok_r(NULL, ",", &rest)) {
-    if (n == CURVES)
-      return sph_prog_error(PROG_USAGE, "plot: --series of more than %d columns", CURVES);
-    curve[n++] = (sph_plot_curve){.csv = csv, .x = o->over, .y = word, .points = o->over != NULL};
-  }
-  int status =
-      sph_plot_series(curve, n, &(sph_plot_def){.y_label = n > 1 ? "" : NULL}, png, &error);
-  return report(status, png, &error) ? PROG_FAILED : PROG_OK;
+  const int status = take_columns(o, time, times, csv, c);
+  return status ? status : draw_curves(c, png);
+}
+
+/* Fields of the particles over a coordinate, at the snapshots nearest to the times. */
+static int draw_profiles(const prog_options *o, const double *time, int times, curves *c)
+{
+  long number[PROG_FRAMES];
+  char png[4096];
+  sph_error error = {0};
+  if (sph_plot_nearest(o->what, time, times, number, NULL, &error))
+    return sph_prog_error(PROG_FAILED, "no picture: %s", error.text);
+  for (int k = 0; k < times; k++)
+    snprintf(c->path[k], sizeof c->path[k], "%s/snapshot_%04ld.hdf", o->what, number[k]);
+  snprintf(png, sizeof png, "%s/profiles.png", o->what);
+  const int status = take_columns(o, time, times, NULL, c);
+  return status ? status : draw_curves(c, png);
+}
+
+static int draw(const prog_options *o, const double *time, int times)
+{
+  curves *c = calloc(1, sizeof *c);
+  if (!c) return sph_prog_error(PROG_FAILED, "plot: out of memory");
+  const int status = times && o->series && !o->table ? draw_profiles(o, time, times, c)
+                                                     : draw_table(o, time, times, c);
+  free(c);
+  return status;
+}
+
+/* Snapshots on a sheet. */
+static int sheet(const prog_options *o, const sph_case *c, const double *time, int times)
+{
+  long number[PROG_FRAMES];
+  char png[4096];
+  sph_error error = {0};
+  const int n = o->frames ? o->frames : c ? sph_case_plot_frames(c) : 4;
+  sph_sheet_def def = {.directory = o->what,
+                       .field = o->field ? o->field
+                                : c      ? sph_case_plot_field(c)
+                                         : NULL,
+                       .n = times ? times : n,
+                       .number = times ? number : NULL};
+  snprintf(png, sizeof png, "%s/frames.png", o->what);
+  int status = times ? sph_plot_nearest(o->what, time, times, number, NULL, &error) : SPH_OK;
+  if (!status) status = sph_plot_sheet(&def, png, &error);
+  return report(status, png, &error);
 }
 
 /* Again, from the tables that the run left; it may have been stopped before it compared. */
@@ -98,56 +192,14 @@ static void comparisons(const sph_case *c, const char *directory)
 
 int sph_prog_plot(const prog_options *o)
 {
-  if (o->table && o->field && !o->series && !o->over) return map(o);
-  if (o->series || o->table || o->over) return curves(o);
-  sph_case *c = case_of(o->what);
-  const char *field = o->field ? o->field : c ? sph_case_plot_field(c) : NULL;
-  int status = frames(o->what, field, o->frames ? o->frames : c ? sph_case_plot_frames(c) : 4);
-  if (c && status == SPH_OK) comparisons(c, o->what);
+  double time[PROG_FRAMES];
+  const int times = take_times(o, time);
+  if (times < 0) return PROG_USAGE;
+  if (o->table && o->field && !o->series && !o->over) return map(o, time, times);
+  if (o->series || o->table || o->over) return draw(o, time, times);
+  sph_case *c = sph_prog_plot_of(o->what);
+  const int status = sheet(o, c, time, times);
+  if (c && status == SPH_OK && !times) comparisons(c, o->what);
   sph_case_free(c);
   return status == SPH_OK ? PROG_OK : PROG_FAILED;
-}
-
-/* A word of the command line that is two numbers with a letter between them. */
-static int two(const char *text, char between, double value[2])
-{
-  char *end;
-  value[0] = strtod(text, &end);
-  if (end == text || *end != between) return 0;
-  const char *second = end + 1;
-  value[1] = strtod(second, &end);
-  return end != second && !*end;
-}
-
-static int take_options(const prog_options *o, sph_movie_def *def)
-{
-  double range[2] = {0}, size[2] = {0};
-  if (o->range && (!two(o->range, ':', range) || !(range[0] < range[1])))
-    return sph_prog_error(PROG_USAGE, "--range %s: wanted FROM:TO in SI units, as 0:2000",
-                          o->range);
-  if (o->size && (!two(o->size, 'x', size) || !(size[0] >= 1 && size[1] >= 1) ||
-                  !(size[0] < 1e5 && size[1] < 1e5)))
-    return sph_prog_error(PROG_USAGE, "--size %s: wanted WIDTHxHEIGHT in pixels, as 1280x720",
-                          o->size);
-  def->from = range[0], def->to = range[1];
-  def->width = (int)size[0], def->height = (int)size[1];
-  def->rate = o->rate;
-  return PROG_OK;
-}
-
-int sph_prog_movie(const prog_options *o)
-{
-  char path[4096];
-  sph_error error = {0};
-  sph_movie_def def = {.directory = o->what, .path = o->output ? o->output : path};
-  int status = take_options(o, &def);
-  if (status) return status;
-  snprintf(path, sizeof path, "%s/movie.mp4", o->what);
-  sph_case *c = case_of(o->what);
-  def.field = o->field ? o->field : c ? sph_case_plot_field(c) : NULL;
-  int frames = sph_movie_write(&def, &error);
-  sph_case_free(c);
-  if (frames < 0) return sph_prog_error(PROG_FAILED, "no movie: %s", error.text);
-  if (!o->quiet) printf("movie        %s (%d frames)\n", def.path, frames);
-  return PROG_OK;
 }

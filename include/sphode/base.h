@@ -48,6 +48,13 @@ typedef struct sph_error {
  * error == NULL is allowed: then only status is returned. */
 SPH_API int sph_error_set(sph_error *error, int status, const char *format, ...) SPH_PRINTF(3, 4);
 
+/* What is told of each file that cannot be read and is left out: its name and the reason.  tell
+ * NULL: nothing is left out, the first such file is an error. */
+typedef struct sph_left_out {
+  void (*tell)(void *ctx, const char *why);
+  void *ctx;
+} sph_left_out;
+
 /* "0.8.0" */
 SPH_API const char *sph_version(void);
 

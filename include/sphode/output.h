@@ -209,10 +209,25 @@ SPH_API int sph_plot_particles(const char *path, const char *field, const char *
  * scale. */
 SPH_API int sph_plot_frames(const char *directory, const char *field, int n, const char *png,
                             sph_error *error);
+/* The same of chosen snapshots. */
+typedef struct sph_sheet_def {
+  const char *directory;
+  const char *field;     /* NULL: as above */
+  int n;                 /* panels, 1 to 16 */
+  const long *number;    /* [n] of the snapshots (12: snapshot_0012.hdf); NULL: evenly, as above */
+  sph_left_out left_out; /* of snapshots that cannot be read */
+} sph_sheet_def;
+SPH_API int sph_plot_sheet(const sph_sheet_def *def, const char *png, sph_error *error);
+/* number[n] of the snapshots nearest to n times [s]; of two as near the earlier one. */
+SPH_API int sph_plot_nearest(const char *directory, const double *time, int n, long *number,
+                             const sph_left_out *left_out, sph_error *error);
 /* A plane of places, as a probe writes it (probe_NAME.csv): n of its times, evenly from the first
  * to the last, as maps of a column, one colour scale. */
 SPH_API int sph_plot_plane(const char *csv, const char *column, int n, const char *png,
                            sph_error *error);
+/* Those of its times that are nearest to time[n] [s]. */
+SPH_API int sph_plot_plane_at(const char *csv, const char *column, const double *time, int n,
+                              const char *png, sph_error *error);
 /* All snapshots of a directory as a movie, by gnuplot and ffmpeg (SPH_ERR_UNBUILT where one is not
  * there): each as sph_plot_particles draws it, all with the same colours and axes.  Its frames are
  * drawn into the folder PATH.frames, which is removed in the end. */
@@ -230,17 +245,19 @@ SPH_API int sph_movie_write(const sph_movie_def *def, sph_error *error);
 SPH_API int sph_plot_count(const char *directory, sph_error *error);
 
 /* A curve: two columns of a CSV file (comma separated, lines with # are comments, one header line
- * where a unit in brackets is not part of the name).
+ * where a unit in brackets is not part of the name), or, where `csv` ends in .hdf, of the fluid
+ * particles of a snapshot: x, y, z, and its fields.
  * Drawn: ((x - x_offset)/x_scale, y/y_scale). */
 typedef struct sph_plot_curve {
   const char *csv;
   const char *x, *y;       /* column names; x NULL: the first, y NULL: the second */
   double x_scale, y_scale; /* 0: 1 */
   double x_offset;         /* in the unit of the column */
-  const char *label;       /* in the key; NULL: the column's name */
+  const char *label;       /* in the key; NULL: the column's name, and the time of at, snapshots */
   int points;              /* 1: points, 0: a line, 2: both */
   int colour;              /* of the palette, from 1 to 8; 0: by its place among the curves */
   const char *where, *is;  /* of the rows whose column `where` holds the word `is`; NULL: of all */
+  const double *at;        /* [s]: of the rows whose `time` is nearest to it; NULL: of all */
 } sph_plot_curve;
 
 typedef struct sph_plot_def {
@@ -248,6 +265,7 @@ typedef struct sph_plot_def {
   const char *x_label, *y_label;     /* NULL: the column's name and unit of the first curve */
   double x_min, x_max, y_min, y_max; /* min == max: what the curves need */
   int log_x, log_y;                  /* logarithmic axes */
+  int panels; /* 1: one above the other for each unit of y, over one axis of x; y_label NULL */
 } sph_plot_def;
 
 SPH_API int sph_plot_series(const sph_plot_curve *curve, int n, const sph_plot_def *def,

@@ -2,12 +2,14 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "file.h"
 #include "memory.h"
+#include "snapshot.h"
 
 long sph_frames_number(const char *path)
 {
@@ -57,4 +59,41 @@ int sph_frames_path(char path[SPH_PATH], const char *directory, long number, sph
   char name[64];
   snprintf(name, sizeof name, "snapshot_%04ld.hdf", number);
   return sph_file_path(path, directory, name, error);
+}
+
+int sph_frames_leave(const sph_left_out *left_out, const sph_error *why, sph_error *error)
+{
+  if (!left_out || !left_out->tell || why->status != SPH_ERR_FILE)
+    return sph_error_set(error, why->status, "%s", why->text);
+  left_out->tell(left_out->ctx, why->text);
+  return SPH_OK;
+}
+
+int sph_frames_nearest(const char *directory, const double *time, int n, long *nearest,
+                       const sph_left_out *left_out, sph_error *error)
+{
+  long *number = NULL;
+  char path[SPH_PATH];
+  const int count = sph_frames_list(directory, &number, error);
+  double *off = count < 0 ? NULL : SPH_NEW(double, n + 1, "times of snapshots", error);
+  int status = count < 0 ? count : off ? SPH_OK : SPH_ERR_MEMORY, read = 0;
+  for (int j = 0; j < n && !status; j++) off[j] = INFINITY;
+  for (int k = 0; k < count && !status; k++) {
+    double t = 0;
+    sph_error own = {0};
+    status = sph_frames_path(path, directory, number[k], error);
+    if (!status && sph_snapshot_read_time(path, &t, &own)) {
+      status = sph_frames_leave(left_out, &own, error);
+      continue;
+    }
+    for (int j = 0; j < n && !status; j++)
+      if (fabs(t - time[j]) < off[j]) off[j] = fabs(t - time[j]), nearest[j] = number[k];
+    read++;
+  }
+  if (!status && read == 0)
+    status = sph_error_set(error, SPH_ERR_FILE, "%s holds no snapshots%s", directory,
+                           count ? " that can be read" : "");
+  sph_memory_free(off);
+  sph_memory_free(number);
+  return status;
 }

@@ -107,8 +107,24 @@ static int take_frame(const plane *p, long k, sph_snapshot *to)
   return SPH_OK;
 }
 
-static int draw(const plane *p, int n, const char *png)
+/* Which of the `count` times are drawn: those nearest to time[n], or evenly. */
+static void choose_times(const plane *p, const double *time, int n, long *chosen)
 {
+  const long count = p->rows / p->places;
+  for (int k = 0; k < n; k++) {
+    chosen[k] = n == 1 ? count - 1 : (2 * k * (count - 1) + n - 1) / (2 * (n - 1));
+    if (!time) continue;
+    chosen[k] = 0;
+    for (long j = 1; j < count; j++)
+      if (fabs(p->of[TIME][j * p->places] - time[k]) <
+          fabs(p->of[TIME][chosen[k] * p->places] - time[k]))
+        chosen[k] = j;
+  }
+}
+
+static int draw(const plane *p, const double *time, int n, const char *png)
+{
+  long chosen[FRAMES_MAX];
   sph_snapshot frame[FRAMES_MAX];
   sph_picture picture = {.field = p->column,
                          .width = 1200,
@@ -117,17 +133,16 @@ static int draw(const plane *p, int n, const char *png)
                          .axis = {"xyz"[p->across], "xyz"[p->up]}};
   const long count = p->rows / p->places;
   int status = SPH_OK, taken = 0;
-  if (n > count) n = (int)count;
-  for (; taken < n && !status; taken++) {
-    const long k = n == 1 ? count - 1 : (2 * taken * (count - 1) + n - 1) / (2 * (n - 1));
-    status = take_frame(p, k, &frame[taken]);
-  }
+  if (n > count && !time) n = (int)count;
+  choose_times(p, time, n, chosen);
+  for (; taken < n && !status; taken++) status = take_frame(p, chosen[taken], &frame[taken]);
   if (!status) status = sph_picture_sheet(&picture, frame, n, png, p->error);
   while (taken > 0) sph_snapshot_read_free(&frame[--taken]);
   return status;
 }
 
-int sph_plot_plane(const char *csv, const char *column, int n, const char *png, sph_error *error)
+static int plot(const char *csv, const char *column, const double *time, int n, const char *png,
+                sph_error *error)
 {
   sph_error own = {0};
   plane p = {.csv = csv, .column = column, .error = error ? error : &own};
@@ -140,7 +155,19 @@ int sph_plot_plane(const char *csv, const char *column, int n, const char *png, 
   int status = read_columns(&p);
   if (!status) status = choose_directions(&p);
   if (!status) measure_cell(&p);
-  if (!status) status = draw(&p, n, png);
+  if (!status) status = draw(&p, time, n, png);
   for (int k = 0; k < COLUMNS; k++) sph_memory_free(p.of[k]);
   return status;
+}
+
+int sph_plot_plane(const char *csv, const char *column, int n, const char *png, sph_error *error)
+{
+  return plot(csv, column, NULL, n, png, error);
+}
+
+int sph_plot_plane_at(const char *csv, const char *column, const double *time, int n,
+                      const char *png, sph_error *error)
+{
+  if (!time) return sph_error_set(error, SPH_ERR_ARGUMENT, "maps at %d times at NULL", n);
+  return plot(csv, column, time, n, png, error);
 }

@@ -161,7 +161,7 @@ ok $? "an export of one snapshot has its number"
 # Scripts of pictures are there without gnuplot, too.
 run 0 "$sphode" run "$SRCDIR/cases/lid-driven-cavity-2d.yml" --lenient -o cavity --set parameters.n=8 --set parameters.L=0.5m --set parameters.U=2m/s \
   --set "output.probes={p: {interval: 0.01 s, plane: {corner: [0, 0], along: [L, 0], across: [0, L/2], n_along: 5, n_across: 3}},
-    l: {line: {from: [0, 0], to: [L, 0], n: 5}}}" \
+    l: {interval: 0.01 s, line: {from: [0, 0], to: [L, 0], n: 5}}}" \
   --set run.end=0.02s --set output.snapshots=0.01s --set "compare.0.window=[0, 1]" --set "compare.1.window=[0, 1]" &&
   grep -qF "set xlabel 'y / (0.5 m)'" cavity/compare_0.gp && grep -qF "set ylabel 'velocity_x / (2 m/s)'" cavity/compare_0.gp &&
   grep -qF "set ylabel 'velocity_y / (2 m/s)'" cavity/compare_1.gp
@@ -171,6 +171,39 @@ grep -qF "set cblabel 'density [kg/m^3]'" cavity/probe_p.gp && grep -q "cell_x =
   run 1 "$sphode" plot cavity --table probe_l.csv --field pressure && grep -q "places lie on a line; curves draw it" err &&
   run 1 "$sphode" plot cavity --table probe_p.csv --field preszure && grep -q 'no column "preszure" among' err
 ok $? "a plane of a probe is drawn as maps, a line is not"
+# Chosen times: the nearest ones; the numbers are those of the tables and of the snapshots.
+draws() { "$sphode" plot "$@" >out 2>err || grep -q "no gnuplot found" err; } # the script is there in any case
+same() { # DATA TABLE AWK: rows of the script's data are those that the program prints of the table
+  awk '/^#/ { next } NF == 2 { print $1 + 0, $2 + 0 }' "$1" >drawn
+  awk -F, "$3" "$2" >wanted
+  [[ -s wanted && $(wc -l <drawn) == "$(wc -l <wanted)" ]] &&
+    paste -d ' ' drawn wanted | awk '{ for (k = 1; k <= 2; k++) { d = $k - $(k + 2); if (d * d > 1e-16 * $k * $k) bad = 1 } } END { exit bad }'
+}
+draws cavity --table probe_l.csv --series density --over x --at 14ms &&
+  same cavity/probe_l.dat cavity/probe_l.csv '$1 > 0.005 && $1 < 0.015 { print $2 + 0, $NF + 0 }' && [[ $(wc -l <wanted) == 5 ]] &&
+  grep -q "density \[kg/m^3\], t = 0.01 s" cavity/probe_l.gp
+ok $? "a profile of a table at the time nearest to another"
+run 0 "$sphode" export cavity --format csv && draws cavity --series velocity_y,velocity_x --over y --at 14ms,99s &&
+  { for field in velocity_y velocity_x; do for k in 1 2; do awk -F, -v f="$field" -v k=$k 'NR == 1 { for (c = 1; c <= NF; c++) { gsub(/"| \[.*/, "", $c); at[$c] = c } next }
+    { print $(at["y"]) + 0 "," $(at[f]) + 0 }' cavity/csv/snapshot_000$k.csv; done; done; } >all.csv && same cavity/profiles.dat all.csv '{ print $1, $2 }' && [[ $(wc -l <wanted) == 256 ]] &&
+  grep -q "velocity_x \[m/s\], t = 0.01.* s" cavity/profiles.gp && grep -q "velocity_y \[m/s\], t = 0.02.* s" cavity/profiles.gp
+ok $? "profiles of the particles at two times"
+draws cavity --table probe_p.csv --field density --at 0.004,0.011 && [[ $(sed -n 's/^# t = \(.*\) s, .*/\1/p' cavity/probe_p.dat | tr '\n' ' ') == "0 0.01 " ]]
+ok $? "maps at chosen times"
+draws cavity --at 20ms,0.004 && [[ $(sed -n 's/^# t = \([0-9.]*\) s, fluids/\1/p' cavity/frames.dat | awk '{ printf "%.3f ", $1 }') == "0.020 0.000 " ]]
+ok $? "snapshots at chosen times"
+run 2 "$sphode" plot cavity --at 0.1,x && grep -q -e "--at 0.1,x: wanted 1 to 16 times" err && run 2 "$sphode" plot cavity --at 0.1, && run 2 "$sphode" plot cavity --at 0.1s1 &&
+  run 2 "$sphode" plot cavity --at 0.1 --table probe_l.csv --series density && grep -q "wants --over" err
+ok $? "times that are none"
+# A panel for each unit, in the order of the columns; one axis of time.
+draws d1 --series kinetic,dt,potential,front && awk '
+  /^set ylabel/ { panel[++n] = $3 " " $4 } /^set xlabel / && /time/ { x[n]++ }
+  /data index/ { held[n] = held[n] " " $0 } /^set xrange/ { ranges++ }
+  END { exit !(n == 3 && panel[1] ~ /\[J\/m\]/ && held[1] ~ /kinetic.*potential/ && panel[2] ~ /dt \[s\]/ && held[2] ~ /index 1 / && held[2] !~ /kinetic|front/ &&
+    panel[3] ~ /front \[m\]/ && held[3] ~ /index 3 / && ranges == 1) }' d1/series.gp && [[ $(grep -c "^set format x ''" d1/series.gp) == 2 && $(grep -c "^set format x '%g'" d1/series.gp) == 1 ]]
+ok $? "columns of several units: a panel for each"
+draws d1 --series kinetic,potential && ! grep -q multiplot d1/series.gp && grep -qF "set ylabel '[J/m]'" d1/series.gp
+ok $? "columns of one unit: one panel"
 before=$(cksum d1/* | cksum)
 fails "a run that ended is not written over" "d1 holds a run that ended or was stopped" run "$dam" "${small[@]}" -o d1
 [[ $before == "$(cksum d1/* | cksum)" ]]

@@ -248,9 +248,17 @@ else
   ok 0 "gnuplot # SKIP no gnuplot"
 fi
 
-"$sphode" export run --csv --vtu >out 2>err
-[[ $? == 2 ]] && grep -q "one of --csv, --vtu, --gadget, --splash" err
-ok $? "two formats at once"
+"$sphode" export run --format splash,csv,vtu -o both -q >out 2>err &&
+  for format in csv vtu splash; do diff -r -x "*.ascii" run/$format both/$format || break; done && [[ $(ls both | wc -l) == 3 ]]
+ok $? "several formats at once, each in its folder"
+"$sphode" export run --csv --splash -q -o two && [[ $(ls two | tr '\n' ' ') == "csv splash " ]]
+ok $? "... by options of their own"
+for wrong in csv,vt "" csv,, ,; do
+  "$sphode" export run --format "$wrong" >out 2>err
+  [[ $? == 2 ]] && grep -q "wants some of csv, vtu, gadget, splash" err || break
+done && "$sphode" export run >out 2>err
+[[ $? == 2 ]] && grep -q "export: --format wants some of" err
+ok $? "formats that are none"
 "$sphode" export nowhere --csv >out 2>err
 [[ $? == 1 && ! -e nowhere ]] && grep -q "nowhere: no such HDF5 file" err
 ok $? "no run"
