@@ -81,6 +81,11 @@ int sph_prog_advice(const prog_options *o);
 /* "sphode: ..." on stderr; returns status. */
 int sph_prog_error(int status, const char *format, ...) SPH_PRINTF(2, 3);
 
+/* Snapshots that cannot be read are told as they come, and counted. */
+sph_left_out sph_prog_left_out(int *count);
+/* Tells how many of `all` there were; PROG_FAILED where there was one, else status. */
+int sph_prog_left_out_end(int count, int all, int status);
+
 /* The error of a simulation of the case, with its place in the file, else behind `what`. */
 int sph_prog_sim_error(const sph_case *c, const sph_sim *sim, const char *what);
 

@@ -44,10 +44,14 @@ static int take_formats(const prog_options *o, const char *format[FORMATS])
                         o->format ? " --format " : ": --format", o->format ? o->format : "");
 }
 
-static int export_one(const prog_options *o, const char *format, int several)
+/* Of several formats only the first one tells what is left out. */
+static void tell_nothing(void *ctx, const char *why) { (void)ctx, (void)why; }
+
+static int export_one(const prog_options *o, const char *format, int first, int several)
 {
   char directory[4096];
   sph_error error = {0};
+  int left = 0;
   if (!o->output && directory_of(o->what, format, directory)) return PROG_FAILED;
   if (o->output && snprintf(directory, sizeof directory, several ? "%s/%s" : "%s", o->output,
                             format) >= (int)sizeof directory)
@@ -56,11 +60,13 @@ static int export_one(const prog_options *o, const char *format, int several)
                               .format = format,
                               .directory = directory,
                               .fields = o->fields,
-                              .single = o->single};
+                              .single = o->single,
+                              .left_out = first ? sph_prog_left_out(&left)
+                                                : (sph_left_out){tell_nothing, NULL}};
   int count = sph_export(&def, &error);
   if (count < 0) return sph_prog_error(PROG_FAILED, "%s", error.text);
   if (!o->quiet) printf("%d snapshot%s to %s\n", count, count == 1 ? "" : "s", def.directory);
-  return PROG_OK;
+  return sph_prog_left_out_end(left, count + left, PROG_OK);
 }
 
 int sph_prog_export(const prog_options *o)
@@ -68,6 +74,7 @@ int sph_prog_export(const prog_options *o)
   const char *format[FORMATS];
   const int n = take_formats(o, format);
   int status = n < 0 ? PROG_USAGE : PROG_OK;
-  for (int k = 0; k < n && !status; k++) status = export_one(o, format[k], n > 1);
+  for (int k = 0; k < n && status != PROG_USAGE; k++)
+    if (export_one(o, format[k], k == 0, n > 1)) status = PROG_FAILED;
   return status;
 }

@@ -142,13 +142,16 @@ static int draw_profiles(const prog_options *o, const double *time, int times, c
   long number[PROG_FRAMES];
   char png[4096];
   sph_error error = {0};
-  if (sph_plot_nearest(o->what, time, times, number, NULL, &error))
+  int left = 0;
+  const sph_left_out left_out = sph_prog_left_out(&left);
+  if (sph_plot_nearest(o->what, time, times, number, &left_out, &error))
     return sph_prog_error(PROG_FAILED, "no picture: %s", error.text);
   for (int k = 0; k < times; k++)
     snprintf(c->path[k], sizeof c->path[k], "%s/snapshot_%04ld.hdf", o->what, number[k]);
   snprintf(png, sizeof png, "%s/profiles.png", o->what);
-  const int status = take_columns(o, time, times, NULL, c);
-  return status ? status : draw_curves(c, png);
+  int status = take_columns(o, time, times, NULL, c);
+  if (!status) status = draw_curves(c, png);
+  return sph_prog_left_out_end(left, sph_plot_count(o->what, NULL), status);
 }
 
 static int draw(const prog_options *o, const double *time, int times)
@@ -162,7 +165,7 @@ static int draw(const prog_options *o, const double *time, int times)
 }
 
 /* Snapshots on a sheet. */
-static int sheet(const prog_options *o, const sph_case *c, const double *time, int times)
+static int sheet(const prog_options *o, const sph_case *c, const double *time, int times, int *left)
 {
   long number[PROG_FRAMES];
   char png[4096];
@@ -173,9 +176,11 @@ static int sheet(const prog_options *o, const sph_case *c, const double *time, i
                                 : c      ? sph_case_plot_field(c)
                                          : NULL,
                        .n = times ? times : n,
-                       .number = times ? number : NULL};
+                       .number = times ? number : NULL,
+                       .left_out = sph_prog_left_out(left)};
   snprintf(png, sizeof png, "%s/frames.png", o->what);
-  int status = times ? sph_plot_nearest(o->what, time, times, number, NULL, &error) : SPH_OK;
+  int status =
+      times ? sph_plot_nearest(o->what, time, times, number, &def.left_out, &error) : SPH_OK;
   if (!status) status = sph_plot_sheet(&def, png, &error);
   return report(status, png, &error);
 }
@@ -198,8 +203,10 @@ int sph_prog_plot(const prog_options *o)
   if (o->table && o->field && !o->series && !o->over) return map(o, time, times);
   if (o->series || o->table || o->over) return draw(o, time, times);
   sph_case *c = sph_prog_plot_of(o->what);
-  const int status = sheet(o, c, time, times);
+  int left = 0;
+  const int status = sheet(o, c, time, times, &left);
   if (c && status == SPH_OK && !times) comparisons(c, o->what);
   sph_case_free(c);
-  return status == SPH_OK ? PROG_OK : PROG_FAILED;
+  return sph_prog_left_out_end(left, sph_plot_count(o->what, NULL),
+                               status == SPH_OK ? PROG_OK : PROG_FAILED);
 }

@@ -25,7 +25,9 @@ typedef struct sph_export_def {
   /* Names of fields with spaces or commas between them ("velocity density"), besides the position;
    * NULL: all.  A field that walls do not have is written for the fluids alone. */
   const char *fields;
-  int single; /* 1: numbers of single precision, half the size; 0: double */
+  int single;            /* 1: numbers of single precision, half the size; 0: double */
+  sph_left_out left_out; /* of a directory: of snapshots that cannot be read, or are missing between
+                          * others */
 } sph_export_def;
 
 SPH_API const char *sph_export_format(int k); /* NULL behind the last */

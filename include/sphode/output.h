@@ -233,13 +233,16 @@ SPH_API int sph_plot_plane_at(const char *csv, const char *column, const double 
  * drawn into the folder PATH.frames, which is removed in the end. */
 typedef struct sph_movie_def {
   const char *directory;
-  const char *field; /* NULL: "velocity" */
-  const char *path;  /* of the movie: .mp4, or .png, .apng: animated PNG */
-  double from, to;   /* of the colours [SI]; from == to: what the field has in all frames */
-  int width, height; /* [pixels]; 0: at most 1200, what the picture needs */
-  double rate;       /* frames a second; 0: 25 */
+  const char *field;      /* NULL: "velocity" */
+  const char *path;       /* of the movie: .mp4, or .png, .apng: animated PNG */
+  double from, to;        /* of the colours [SI]; from == to: what the field has in all frames */
+  int width, height;      /* [pixels]; 0: at most 1200, what the picture needs */
+  double rate;            /* frames a second; 0: 25 */
+  sph_left_out left_out;  /* of snapshots that cannot be read, or are missing between others */
+  int (*stop)(void *ctx); /* asked between frames, and ten times a second of ffmpeg; not 0: the */
+  void *stop_ctx;         /* movie is given up, SPH_ERR_STOPPED.  NULL: never */
 } sph_movie_def;
-/* Returns the number of frames, or < 0. */
+/* Returns the number of frames, or < 0; a movie that was there stays until the new one is whole. */
 SPH_API int sph_movie_write(const sph_movie_def *def, sph_error *error);
 /* Snapshots in a directory; < 0: a status. */
 SPH_API int sph_plot_count(const char *directory, sph_error *error);

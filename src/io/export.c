@@ -73,10 +73,10 @@ static int write_gadget(exporter *e, const char *path, long number,
 }
 
 /* Walls have fewer fields than fluids: what they lack of the wanted ones they do without. */
-static int read_walls(const exporter *e, const char *path, sph_table *walls)
+static int read_walls(const exporter *e, const char *path, sph_table *walls, sph_error *why)
 {
   const char *wanted = e->def->fields;
-  int status = sph_table_read(walls, path, SPH_WALLS, NULL, e->error), kept = 0;
+  int status = sph_table_read(walls, path, SPH_WALLS, NULL, why), kept = 0;
   for (int k = 0; k < walls->fields; k++) {
     sph_table_field *f = &walls->field[k];
     if (!wanted || !strcmp(f->name, "position") || sph_table_listed(wanted, f->name))
@@ -88,16 +88,28 @@ static int read_walls(const exporter *e, const char *path, sph_table *walls)
   return status;
 }
 
-static int export_one(exporter *e, const char *path, long number)
+static int read_tables(const exporter *e, const char *path, sph_table table[SPH_PARTS],
+                       sph_error *why)
+{
+  int status = sph_table_read(&table[SPH_FLUIDS], path, SPH_FLUIDS, e->def->fields, why);
+  return status ? status : read_walls(e, path, &table[SPH_WALLS], why);
+}
+
+/* 1: it was exported; 0: it cannot be read, and is left out. */
+static int export_one(exporter *e, const char *path, long number, const sph_left_out *left_out)
 {
   sph_table table[SPH_PARTS] = {{0}};
-  int status = sph_table_read(&table[SPH_FLUIDS], path, SPH_FLUIDS, e->def->fields, e->error);
-  if (!status) status = read_walls(e, path, &table[SPH_WALLS]);
-  if (!status) status = sph_file_make_directory(e->def->directory, e->error);
-  if (!status && e->format == GADGET) status = write_gadget(e, path, number, table);
-  if (!status && e->format != GADGET) status = write_tables(e, number, table);
+  sph_error why = {0};
+  int status = SPH_OK;
+  const int bad = read_tables(e, path, table, &why);
+  if (bad)
+    status = sph_frames_leave(left_out, &why, e->error);
+  else
+    status = sph_file_make_directory(e->def->directory, e->error);
+  if (!status && !bad && e->format == GADGET) status = write_gadget(e, path, number, table);
+  if (!status && !bad && e->format != GADGET) status = write_tables(e, number, table);
   for (int part = 0; part < SPH_PARTS; part++) sph_table_free(&table[part]);
-  return status;
+  return status ? status : !bad;
 }
 
 static int write_index(exporter *e, int part)
@@ -121,17 +133,23 @@ static int export_all(exporter *e)
 {
   long *number = NULL;
   char path[SPH_PATH];
-  int count = sph_frames_list(e->def->path, &number, e->error);
+  int count = sph_frames_list(e->def->path, &number, e->error), exported = 0;
   int status = count < 0 ? count : SPH_OK;
   if (count == 0)
     status = sph_error_set(e->error, SPH_ERR_FILE, "%s: no snapshots (snapshot_0000.hdf, ...)",
                            e->def->path);
-  for (int k = 0; k < count && !status; k++) {
+  if (!status)
+    status = sph_frames_missing(e->def->path, number, count, &e->def->left_out, e->error);
+  for (int k = 0; k < count && status >= 0; k++) {
     status = sph_frames_path(path, e->def->path, number[k], e->error);
-    if (!status) status = export_one(e, path, number[k]);
+    if (!status) status = export_one(e, path, number[k], &e->def->left_out);
+    if (status > 0) exported++;
   }
   sph_memory_free(number);
-  return status ? status : count;
+  if (status < 0) return status;
+  return exported ? exported
+                  : sph_error_set(e->error, SPH_ERR_FILE, "%s: none of its snapshots can be read",
+                                  e->def->path);
 }
 
 static int check(exporter *e)
@@ -161,8 +179,7 @@ int sph_export(const sph_export_def *def, sph_error *error)
   if (status || !def) return status;
   const int folder = stat(def->path, &info) == 0 && S_ISDIR(info.st_mode);
   const long number = sph_frames_number(def->path);
-  int count = folder ? export_all(&e) : export_one(&e, def->path, number > 0 ? number : 0);
-  if (!folder && !count) count = 1;
+  int count = folder ? export_all(&e) : export_one(&e, def->path, number > 0 ? number : 0, NULL);
   for (int part = 0; part < SPH_PARTS; part++) {
     status = count > 0 ? write_index(&e, part) : SPH_OK;
     if (status) count = status;

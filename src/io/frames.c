@@ -69,6 +69,22 @@ int sph_frames_leave(const sph_left_out *left_out, const sph_error *why, sph_err
   return SPH_OK;
 }
 
+int sph_frames_missing(const char *directory, const long *number, int count,
+                       const sph_left_out *left_out, sph_error *error)
+{
+  char path[SPH_PATH];
+  int status = SPH_OK;
+  for (int k = 1; left_out && left_out->tell && k < count; k++)
+    for (long missing = number[k - 1] + 1; missing < number[k] && !status; missing++) {
+      sph_error why = {0};
+      status = sph_frames_path(path, directory, missing, error);
+      if (status) break;
+      sph_error_set(&why, SPH_ERR_FILE, "%s: it is missing", path);
+      status = sph_frames_leave(left_out, &why, error);
+    }
+  return status;
+}
+
 int sph_frames_nearest(const char *directory, const double *time, int n, long *nearest,
                        const sph_left_out *left_out, sph_error *error)
 {

@@ -13,6 +13,9 @@ int sph_frames_path(char path[4096], const char *directory, long number, sph_err
 /* A snapshot could not be read, `why`: tells it and goes on (SPH_OK), or returns the failure.  What
  * is wrong with a file is left out, what is wrong with the question or memory is not. */
 int sph_frames_leave(const sph_left_out *left_out, const sph_error *why, sph_error *error);
+/* Tells the numbers that are missing between those of a list; SPH_OK where that is not wanted. */
+int sph_frames_missing(const char *directory, const long *number, int count,
+                       const sph_left_out *left_out, sph_error *error);
 /* sph_plot_nearest */
 int sph_frames_nearest(const char *directory, const double *time, int n, long *nearest,
                        const sph_left_out *left_out, sph_error *error);

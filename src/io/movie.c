@@ -28,19 +28,47 @@ typedef struct movie {
 
 /* ---- frames ---- */
 
+static int stopped(const movie *m)
+{
+  if (!m->def->stop || !m->def->stop(m->def->stop_ctx)) return SPH_OK;
+  return sph_error_set(m->error, SPH_ERR_STOPPED, "the movie was stopped on request");
+}
+
 static int visit_all(movie *m, int (*visit)(movie *m, const sph_snapshot *frame, int k))
 {
   char path[SPH_PATH];
-  int status = SPH_OK;
+  int status = SPH_OK, kept = 0;
   for (int k = 0; k < m->frames && !status; k++) {
     sph_snapshot frame;
-    status = sph_frames_path(path, m->def->directory, m->number[k], m->error);
-    if (!status) status = sph_snapshot_read(path, m->field, &frame, m->error);
+    sph_error why = {0};
+    status = stopped(m);
+    if (!status) status = sph_frames_path(path, m->def->directory, m->number[k], m->error);
     if (status) break;
-    status = visit(m, &frame, k);
+    if (sph_snapshot_read(path, m->field, &frame, &why)) {
+      status = sph_frames_leave(&m->def->left_out, &why, m->error);
+      continue;
+    }
+    m->number[kept] = m->number[k];
+    status = visit(m, &frame, kept++);
     sph_snapshot_read_free(&frame);
   }
+  if (!status && kept == 0)
+    return sph_error_set(m->error, SPH_ERR_FILE, "%s: none of its snapshots can be read",
+                         m->def->directory);
+  if (!status) m->frames = kept; /* of what was drawn before a failure, all is removed */
   return status;
+}
+
+/* That of the first snapshot that can be read, where none is named. */
+static const char *choose_field(movie *m)
+{
+  char path[SPH_PATH];
+  double time;
+  for (int k = 0; k < m->frames; k++)
+    if (!sph_frames_path(path, m->def->directory, m->number[k], NULL) &&
+        !sph_snapshot_read_time(path, &time, NULL))
+      return sph_snapshot_read_default(path);
+  return "velocity";
 }
 
 static int bound(movie *m, const sph_snapshot *frame, int k)
@@ -92,8 +120,9 @@ static void remove_frames(const movie *m)
 static int run_ffmpeg(const movie *m, const char *directory, const char *const argv[])
 {
   char said[600];
-  int code = sph_process_run(directory, argv, said, sizeof said);
-  if (code == 0) return SPH_OK;
+  const sph_process_stop stop = {m->def->stop, m->def->stop_ctx};
+  int code = sph_process_run_until(directory, argv, said, sizeof said, &stop);
+  if (code == 0 || stopped(m)) return stopped(m);
   if (code == SPH_PROCESS_MISSING)
     return sph_error_set(m->error, SPH_ERR_UNBUILT,
                          "no ffmpeg found, which makes movies of frames: install ffmpeg (Debian, "
@@ -192,10 +221,10 @@ static int make(movie *m)
   if (m->frames < 0) return m->frames;
   if (m->frames == 0)
     return sph_error_set(m->error, SPH_ERR_FILE, "%s holds no snapshots", def->directory);
-  char first[SPH_PATH];
   int status = run_ffmpeg(m, ".", (const char *const[]){"ffmpeg", "-version", NULL});
-  if (!status) status = sph_frames_path(first, def->directory, m->number[0], m->error);
-  if (!status && !m->field) m->field = sph_snapshot_read_default(first);
+  if (!status)
+    status = sph_frames_missing(def->directory, m->number, m->frames, &def->left_out, m->error);
+  if (!m->field) m->field = choose_field(m);
   m->picture = (sph_picture){.field = m->field,
                              .width = def->width ? def->width : WIDTH,
                              .height = def->width ? def->height : WIDTH,
@@ -221,6 +250,10 @@ int sph_movie_write(const sph_movie_def *def, sph_error *error)
   if (!error) m.error = &own;
   int status = check(&m);
   if (!status) status = make(&m);
+  if (status && def->stop && def->stop(def->stop_ctx)) { /* Ctrl-C ends gnuplot, too */
+    *m.error = (sph_error){0};
+    status = stopped(&m);
+  }
   sph_memory_free(m.number);
   return status ? status : m.frames;
 }

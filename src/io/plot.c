@@ -15,12 +15,14 @@ static int read_frames(const sph_sheet_def *def, const long *number, const char 
 {
   char path[SPH_PATH];
   int status = SPH_OK, read = 0;
+  double time;
   for (int k = 0; k < def->n && !status; k++) {
     sph_error own = {0};
     status = sph_frames_path(path, def->directory, number[k], error);
     if (status) break;
-    if (!*field) *field = sph_snapshot_read_default(path);
-    if (sph_snapshot_read(path, *field, &frame[read], &own))
+    if (!*field && !sph_snapshot_read_time(path, &time, NULL))
+      *field = sph_snapshot_read_default(path);
+    if (sph_snapshot_read(path, *field ? *field : "velocity", &frame[read], &own))
       status = sph_frames_leave(&def->left_out, &own, error);
     else
       read++;

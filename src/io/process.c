@@ -2,6 +2,8 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,7 +20,21 @@ static void child(const char *directory, const char *const argv[], int out)
   _exit(1);
 }
 
+/* Until there is something to read, or a signal came. */
+static void wait_for(int in, pid_t pid, const sph_process_stop *stop)
+{
+  struct pollfd poll_in = {.fd = in, .events = POLLIN};
+  while (stop && stop->is && poll(&poll_in, 1, 100) <= 0)
+    if (stop->is(stop->ctx)) kill(pid, SIGTERM);
+}
+
 int sph_process_run(const char *directory, const char *const argv[], char *said, size_t size)
+{
+  return sph_process_run_until(directory, argv, said, size, NULL);
+}
+
+int sph_process_run_until(const char *directory, const char *const argv[], char *said, size_t size,
+                          const sph_process_stop *stop)
 {
   int pipe_ends[2], status = -1;
   size_t used = 0;
@@ -31,6 +47,7 @@ int sph_process_run(const char *directory, const char *const argv[], char *said,
   while (pid > 0) {
     char rest[512];
     size_t room = size - 1 - used;
+    wait_for(pipe_ends[0], pid, stop);
     ssize_t got = read(pipe_ends[0], room ? said + used : rest, room ? room : sizeof rest);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) break;

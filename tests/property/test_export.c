@@ -273,13 +273,15 @@ static void refused(void **state)
   static const struct {
     sph_export_def def;
     const char *why;
-  } wrong[] = {{{run, "vtk", to, NULL, 0}, "format \"vtk\"; did you mean 'vtu'?"},
-               {{run, NULL, to, NULL, 0}, "known: csv, vtu, gadget"},
-               {{"", "csv", to, NULL, 0}, "of no file"},
-               {{to, "csv", to, "velocty", 0}, "no snapshots"},
-               {{run, "csv", to, "velocty", 0}, "no field \"velocty\"; did you mean 'velocity'?"},
-               {{run, "csv", "/proc/no/where", NULL, 0}, "/proc/no"},
-               {{"nothing.hdf", "csv", to, NULL, 0}, "nothing.hdf: no such HDF5 file"}};
+  } wrong[] = {{{run, "vtk", to, NULL, 0, {NULL, NULL}}, "format \"vtk\"; did you mean 'vtu'?"},
+               {{run, NULL, to, NULL, 0, {NULL, NULL}}, "known: csv, vtu, gadget"},
+               {{"", "csv", to, NULL, 0, {NULL, NULL}}, "of no file"},
+               {{to, "csv", to, "velocty", 0, {NULL, NULL}}, "no snapshots"},
+               {{run, "csv", to, "velocty", 0, {NULL, NULL}},
+                "no field \"velocty\"; did you mean 'velocity'?"},
+               {{run, "csv", "/proc/no/where", NULL, 0, {NULL, NULL}}, "/proc/no"},
+               {{"nothing.hdf", "csv", to, NULL, 0, {NULL, NULL}},
+                "nothing.hdf: no such HDF5 file"}};
   char empty[FOLDER_MAX];
   assert_int_equal(folder_make(empty, "empty"), 0);
   for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {

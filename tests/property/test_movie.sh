@@ -63,12 +63,56 @@ chmod +x bin/ffmpeg
 PATH=$stage/bin refused 1 "ffmpeg could not make b.mp4: no such encoder" run -o b.mp4 && [[ ! -e b.mp4 && ! -e b.mp4.frames ]]
 ok $? "a failing ffmpeg"
 
-# A frame that is damaged: told, and nothing is left.
-head -c 3000 run/snapshot_0003.hdf >cut && cp cut run/snapshot_0003.hdf
-refused 1 "no movie: run/snapshot_0003.hdf" run -o b.mp4 && [[ ! -e b.mp4 ]]
-ok $? "a damaged frame"
+# Frames that are damaged or missing: told, left out of movies, pictures, exports; exit status 1 tells that they were.
+left() { # NUMBER ALL WHAT...: what was told
+  local number=$1 all=$2 what=0
+  shift 2
+  for name in "$@"; do grep -q "^sphode: left out: .*$name" err || what=1; done
+  [[ $what == 0 && $(grep -c "left out: " err) == $# ]] && grep -q "^sphode: $number of $all snapshots wa*e*r*s*e* left out$" err || { sed 's/^/# /' err && false; }
+}
+cp -r run whole
+head -c 3000 run/snapshot_0003.hdf >cut && cp cut run/snapshot_0003.hdf && rm run/snapshot_0001.hdf
+run 1 "$sphode" movie run -q -o b.mp4 && left 2 5 "run/snapshot_0001.hdf: it is missing" "run/snapshot_0003.hdf: " && is "$(probe b.mp4 nb_read_frames)" 3 &&
+  [[ ! -e b.mp4.frames ]]
+ok $? "a movie without damaged and missing frames"
+run 1 "$sphode" export run --format csv,vtu && left 2 5 snapshot_0001 snapshot_0003 && [[ $(ls run/csv/snapshot_* run/vtu/snapshot_*.vtu | wc -l) == 6 && $(grep -c "^snapshot" run/csv/times.csv) == 3 && $(grep -c "<DataSet" run/vtu/snapshot.pvd) == 3 ]] &&
+  "$sphode" export whole --format csv -q && cmp run/csv/snapshot_0004.csv whole/csv/snapshot_0004.csv
+ok $? "... an export"
+run 1 "$sphode" plot run --frames 4 && left 1 4 snapshot_0003 && [[ $(grep -c "fluids$" run/frames.dat) == 3 ]]
+ok $? "... a sheet"
+run 1 "$sphode" plot run --at 0,1e9 && left 1 4 snapshot_0003 && [[ $(grep -c "fluids$" run/frames.dat) == 2 ]] &&
+  run 1 "$sphode" plot run --at 0,1e9 --series velocity --over x && left 1 4 snapshot_0003
+ok $? "... pictures at chosen times"
 cp cut run/snapshot_0000.hdf
-refused 1 "no movie: run/snapshot_0000.hdf" run -o b.mp4 && [[ ! -e b.mp4 ]]
-ok $? "a damaged frame, the first of all"
+run 1 "$sphode" movie run -q -o b.mp4 && left 3 5 snapshot_0000 snapshot_0001 snapshot_0003 && is "$(probe b.mp4 nb_read_frames)" 2
+ok $? "the first of all is damaged"
+for k in 2 4; do cp cut run/snapshot_000$k.hdf; done
+rm b.mp4
+run 1 "$sphode" movie run -o b.mp4 && grep -q "no movie: run: none of its snapshots can be read" err && [[ ! -e b.mp4 && ! -e b.mp4.frames ]] &&
+  run 1 "$sphode" export run --csv -o none && grep -q "none of its snapshots can be read" err && run 1 "$sphode" plot run && grep -q "none of its snapshots" err
+ok $? "none can be read"
+run 1 "$sphode" export run/snapshot_0003.hdf --csv -o none && grep -q "run/snapshot_0003.hdf" err && ! grep -q "left out" err && [[ ! -e none ]]
+ok $? "one that is asked for alone is an error"
+
+# Stopped, while frames are drawn and while ffmpeg makes the movie: nothing is left, the movie before stays.
+slow() { printf '#!/bin/sh\n[ "$1" = -version ] && exit 0\n%s\n' "$1" >bin/ffmpeg; }
+interrupted() { # SIGNAL STATUS UNTIL: a condition
+  cp b.mp4 before.mp4
+  PATH=$stage/bin "$sphode" movie whole -o b.mp4 >out 2>err &
+  local job=$! tries=0
+  until eval "$3" || ((tries++ > 600)); do sleep 0.02; done
+  kill -s "$1" $job
+  wait $job
+  is $? "$2" && grep -q "stopped; no movie was written" err && [[ ! -e b.mp4.frames && ! -e b.mp4.tmp ]] && cmp b.mp4 before.mp4
+}
+echo old >b.mp4
+slow 'for last; do :; done; echo half >"${last#file:}"; echo $$ >"'"$stage"'/encoding"; exec sleep 100'
+interrupted TERM 143 '[[ -e b.mp4.frames/frame_00001.png ]]'
+ok $? "SIGTERM while frames are drawn"
+interrupted INT 130 '[[ -e b.mp4.frames/frame_00000.png ]]'
+ok $? "SIGINT"
+rm -f encoding
+interrupted TERM 143 '[[ -s encoding ]]' && ! kill -0 "$(<encoding)" 2>/dev/null
+ok $? "SIGTERM while ffmpeg makes the movie, which ends, too"
 
 echo 1..$count
