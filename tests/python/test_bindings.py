@@ -267,6 +267,90 @@ def nothing_is_freed_too_early():
     assert (group.array("position") == points).all()
 
 
+class StandIn:
+    """What sphode.yt asks of yt, as far as it can be told without it; tests/property/test_readers.sh has the real one."""
+
+    def __init__(self, path, unit_base, bounding_box):
+        self.path, self.unit_base, self.box, self.fields, self.filters = path, unit_base, bounding_box, {}, {}
+
+    def quan(self, value, unit):
+        if unit == "furlong":
+            raise ValueError(unit)
+        return value
+
+    def arr(self, values, unit):
+        return values, unit
+
+    def add_field(self, name, function, sampling_type, units, take_log, force_override):
+        assert sampling_type == "particle" and force_override and function.__code__.co_varnames[:2] == ("field", "data")
+        self.fields[name] = function, units
+
+    def add_particle_filter(self, made):
+        self.filters[made[0]] = made[1:]
+
+
+@test
+def yt_is_told_units_box_and_names():
+    import types
+    import h5py
+    import sphode.yt
+    with open("two.yml", "w") as file:
+        file.write("dimension: 2\nspacing: 0.1 m\nperiodic: {axes: [x], lower: [0, 0], upper: [1, 1]}\ngroups:\n"
+                   + "".join(f"  {name}: {{kind: {kind}, density: {rho}, eos: {{linear: {{sound_speed: 20}}}}, shapes: [box: {{lower: [0, {y}], upper: [1, {y + 0.5}]}}]}}\n"
+                             for name, kind, rho, y in (("oil", "fluid", 800, 0.5), ("water", "fluid", 1000, 0), ("floor", "wall", 1000, -0.5)))
+                   + "terms: {continuity: {}, pressure: {}, gravity: {acceleration: [1, -9.81]}}\nrun: {end: 1 ms}\noutput: {snapshots: 1 ms}\n")
+    subprocess.run([BUILD + "/sphode", "run", "-q", "-o", "two", "two.yml"], check=True)
+    path = "two/snapshot_0001.hdf"
+    with h5py.File(path, "a") as file:
+        file["PartType0/Odd"] = np.arange(100.0)
+        file["PartType0/Odd"].attrs["unit"] = "furlong"
+    filters = types.ModuleType("yt.data_objects.particle_filters")
+    filters.ParticleFilter = lambda *given: given
+    objects = types.ModuleType("yt.data_objects")
+    objects.particle_filters = filters
+    yt = types.ModuleType("yt")
+    yt.load, yt.data_objects = StandIn, objects
+    fake = {"yt": yt, "yt.data_objects": objects, "yt.data_objects.particle_filters": filters}
+    before = {name: sys.modules.pop(name, None) for name in fake}
+    sys.modules.update(fake)
+    try:
+        ds = sphode.yt.load(path)
+        other = raised(ValueError, sphode.yt.load, _empty())
+        assert "not a snapshot of sphode" in str(other)
+    finally:
+        for name in fake:
+            sys.modules.pop(name)
+            if before[name]:
+                sys.modules[name] = before[name]
+    assert ds.path == path and ds.unit_base == {"length": (1, "m"), "mass": (1, "kg"), "velocity": (1, "m/s")}
+    assert np.allclose(ds.box, [(0, 1), (-0.55, 1.05), (-0.1, 0.1)], atol=1e-3) and ds._periodicity == (True, False, False)
+    units = {name: unit for (part, name), (_, unit) in ds.fields.items() if part == "PartType0"}
+    right = {"velocity_x": "m/s", "velocity_y": "m/s", "pressure": "Pa", "density": "kg/m**3", "mass": "kg", "energy": "J/kg", "h": "m",
+             "sound_speed": "m/s", "Odd": ""}
+    assert units == right, units
+    assert ("PartType1", "density") in ds.fields and set(ds.filters) == {"oil", "water", "floor"}
+
+    class Numbers(dict):
+        def __missing__(self, key):
+            with h5py.File(path) as file:
+                return types.SimpleNamespace(d=file["/".join(key)][()])
+
+    numbers, snapshot = Numbers(), sphode.Snapshot(path)
+    v, unit = ds.fields["PartType0", "velocity_y"][0](None, numbers)
+    assert unit == "m/s" and v.shape == (100,) and v.mean() < -1e-3 and (v == numbers["PartType0", "Velocities"].d[:, 1]).all()
+    for name in ("oil", "water"):
+        chosen, needs, part = ds.filters[name]
+        mine = chosen(types.SimpleNamespace(filtered_type=part), numbers)
+        assert part == "PartType0" and needs == ["Group"] and (numbers[part, "Density"].d[mine] == snapshot[name]["density"]).all() and mine.sum() == 50
+
+
+def _empty():
+    import h5py
+    with h5py.File("empty.hdf", "w") as file:
+        file.create_group("Header")
+    return "empty.hdf"
+
+
 @test
 def the_package_says_the_same_version():
     with open(SOURCE + "/python/pyproject.toml") as file:
