@@ -12,6 +12,7 @@ typedef struct prog_job {
   char line[4100];
   double end;             /* [s] */
   int held;               /* the directory, -1: not */
+  char *before;           /* the case.yml that this one replaced, owned; NULL: there was none */
   struct prog_live *page; /* prog_live.h; NULL: none */
   sph_balance start;      /* of the fluids */
   sph_comparison *comparison;
@@ -22,8 +23,10 @@ typedef struct prog_job {
 int sph_prog_run_build(prog_job *j);
 /* The page, where one is wanted, before anything is written: its port may be taken. */
 int sph_prog_run_listen(prog_job *j);
-/* Its outputs and checkpoints, and case.yml. */
-int sph_prog_run_outputs(prog_job *j);
+/* Its outputs and checkpoints. */
+void sph_prog_run_outputs(prog_job *j);
+/* case.yml; the one before comes back where the run does not begin. */
+int sph_prog_run_keep(prog_job *j);
 /* Runs to j->end, compares, tells, draws; frees all of the job.  status: of what came before. */
 int sph_prog_run_finish(prog_job *j, int status);
 

@@ -131,13 +131,15 @@ static int go_on_from(prog_job *j, const char *path)
     status = tell_end(j, path, info.time);
   if (!status) set_command(j, &info);
   if (!status) status = sph_prog_run_build(j);
-  if (!status) status = sph_prog_run_outputs(j);
+  if (!status) sph_prog_run_outputs(j);
   if (!status && sph_checkpoint_read_told(j->sim, path, told, sizeof told)) {
     sph_prog_error(PROG_FAILED, "%s", sph_sim_error(j->sim));
     forget(j);
     status = -1;
   }
   if (!status && j->o->sets > 0) sph_sim_changed(j->sim);
+  if (!status && sph_sim_status(j->sim)) status = sph_prog_sim_error(j->c, j->sim, j->directory);
+  if (!status) status = sph_prog_run_keep(j); /* not before all that may refuse it */
   if (!status) compare_versions(j, &info);
   if (!status) tell_lost(told);
   if (!status) unlinkat(j->held, "summary.json", 0); /* it goes on */

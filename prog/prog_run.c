@@ -23,15 +23,13 @@ static void name_directory(prog_job *j)
 
 static int failed(const sph_error *error) { return sph_prog_error(PROG_FAILED, "%s", error->text); }
 
-/* Under another name first: a run that goes on may find no space, and the old one is to stay. */
-static int write_case(const prog_job *j)
+/* case.yml.  Under another name first: a run that goes on may find no space, and the old one is to
+ * stay. */
+static int write_case(const prog_job *j, const char *text)
 {
   char path[4096], part[4100];
-  sph_error error = {0};
-  if (sph_case_files_keep(j->c, j->directory, &error)) return failed(&error);
   snprintf(path, sizeof path, "%s/case.yml", j->directory);
   snprintf(part, sizeof part, "%s.tmp", path);
-  const char *text = sph_case_text(j->c);
   FILE *file = fopen(part, "wb");
   int bad = !file || fwrite(text, 1, strlen(text), file) != strlen(text);
   bad = (file && fclose(file)) || bad || rename(part, path);
@@ -41,6 +39,31 @@ static int write_case(const prog_job *j)
     errno = why;
   }
   return bad ? sph_prog_error(PROG_FAILED, "cannot write %s: %s", path, strerror(errno)) : PROG_OK;
+}
+
+/* The case.yml that is there; NULL: none. */
+static char *read_case(const prog_job *j)
+{
+  char path[4096];
+  long size = -1;
+  snprintf(path, sizeof path, "%s/case.yml", j->directory);
+  FILE *file = fopen(path, "rb");
+  if (file && !fseek(file, 0, SEEK_END)) size = ftell(file);
+  char *text = size >= 0 ? malloc((size_t)size + 1) : NULL;
+  if (text) {
+    rewind(file);
+    text[fread(text, 1, (size_t)size, file)] = 0;
+  }
+  if (file) fclose(file);
+  return text;
+}
+
+int sph_prog_run_keep(prog_job *j)
+{
+  sph_error error = {0};
+  if (sph_case_files_keep(j->c, j->directory, &error)) return failed(&error);
+  j->before = read_case(j);
+  return write_case(j, sph_case_text(j->c));
 }
 
 /* Drifts are told from the start of the run, whichever part of it goes on now. */
@@ -70,11 +93,10 @@ int sph_prog_run_build(prog_job *j)
   return PROG_OK;
 }
 
-int sph_prog_run_outputs(prog_job *j)
+void sph_prog_run_outputs(prog_job *j)
 {
   sph_case_build_outputs(j->c, j->sim, j->directory, j->command);
   sph_case_build_checkpoints(j->c, j->sim, j->directory, j->command);
-  return write_case(j);
 }
 
 int sph_prog_run_listen(prog_job *j)
@@ -107,7 +129,8 @@ static int prepare(prog_job *j)
   j->held = sph_prog_directory_take(j->directory, j->o->force);
   if (j->held < 0) return PROG_FAILED;
   warn(j);
-  return sph_prog_run_outputs(j);
+  sph_prog_run_outputs(j);
+  return sph_prog_run_keep(j);
 }
 
 /* A run that failed or was stopped: where does it go on? */
@@ -150,15 +173,17 @@ static int simulate(prog_job *j)
   sph_prog_progress_start(&progress, j->sim, j->end, j->o->quiet);
   if (limit > 0) progress.limit = progress.start + limit;
   progress.page = j->page;
+  const double from = sph_sim_time(j->sim);
   int status = sph_sim_run(j->sim, j->end);
   sph_prog_live_end(j->page);
   j->page = NULL;
   sph_prog_progress_end(&progress);
   if (status == SPH_OK) return PROG_OK;
-  const int begun = sph_sim_time(j->sim) > 0 || status != SPH_ERR_ARGUMENT;
-  if (!begun) /* an output cannot be opened */
+  const int begun = sph_sim_time(j->sim) > from || status != SPH_ERR_ARGUMENT;
+  if (!begun) { /* an output cannot be opened */
     sph_prog_sim_error(j->c, j->sim, j->directory);
-  else
+    if (j->before) write_case(j, j->before);
+  } else
     sph_prog_error(PROG_FAILED, "%s: %s", j->directory, sph_sim_error(j->sim));
   if (status == SPH_ERR_STEP) tell_failure(j);
   if (begun) tell_checkpoint(j);
@@ -226,6 +251,7 @@ int sph_prog_run_finish(prog_job *j, int status)
   sph_case_compare_free(j->comparison, j->comparisons);
   sph_sim_free(j->sim);
   sph_case_free(j->c);
+  free(j->before);
   if (j->held >= 0) close(j->held);
   return status;
 }

@@ -45,8 +45,7 @@ static int build(spectrum *s)
   if (s->c) s->sim = sph_case_build(s->c, s->o->threads, &error);
   if (!s->sim) return sph_prog_error(PROG_FAILED, "%s", error.text);
   int status = s->o->until ? sph_sim_run(s->sim, sph_case_end(s->c)) : sph_sim_evaluate(s->sim);
-  return status ? sph_prog_error(PROG_FAILED, "%s: %s", s->o->what, sph_sim_error(s->sim))
-                : PROG_OK;
+  return status ? sph_prog_sim_error(s->c, s->sim, s->o->what) : PROG_OK;
 }
 
 static double fastest(const sph_sim *sim)
@@ -87,7 +86,7 @@ static int check_names(const prog_options *o)
 static int check_size(spectrum *s)
 {
   s->J = sph_jacobian_create(s->sim, NULL);
-  if (!s->J) return sph_prog_error(PROG_FAILED, "%s: %s", s->o->what, sph_sim_error(s->sim));
+  if (!s->J) return sph_prog_sim_error(s->c, s->sim, s->o->what);
   long n = s->J->n;
   const sph_group *group;
   for (int g = 0; s->o->frozen && (group = sph_sim_group_get(s->sim, g)); g++)
@@ -111,7 +110,7 @@ static int find(spectrum *s)
   if (!s->re || !s->im) return sph_prog_error(PROG_FAILED, "out of memory");
   if (!sph_jacobian_evaluate(J)) s->n = sph_jacobian_eigenvalues(J, s->o->frozen, s->re, s->im);
   if (!sph_sim_status(s->sim)) return PROG_OK;
-  return sph_prog_error(PROG_FAILED, "%s: %s", s->o->what, sph_sim_error(s->sim));
+  return sph_prog_sim_error(s->c, s->sim, s->o->what);
 }
 
 static void find_steps(spectrum *s)

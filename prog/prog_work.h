@@ -33,7 +33,7 @@ typedef struct work_run {
   double value;
   double dt_fixed; /* [s]; 0: none */
   int status;
-  char reason[160]; /* of a run that failed */
+  char reason[400]; /* of a run that failed */
   sph_sim_stats stats;
   double cpu, wall;          /* [s] */
   double *state;             /* [columns][particles] by particle number, in scales; NULL: failed */

@@ -89,8 +89,10 @@ static int take_method(const prog_options *o, work_method *m, const char *label)
   sph_sim *sim = sph_case_build(m->c, o->threads, &error);
   sph_sim_set_integrator(sim, &def);
   int status = sim ? sph_sim_status(sim) : error.status;
-  if (status && status != SPH_ERR_UNBUILT)
-    sph_prog_error(PROG_FAILED, "%s", sim ? sph_sim_error(sim) : error.text);
+  if (status && status != SPH_ERR_UNBUILT && sim)
+    sph_prog_sim_error(m->c, sim, o->what);
+  else if (status && status != SPH_ERR_UNBUILT)
+    sph_prog_error(PROG_FAILED, "%s", error.text);
   sph_sim_free(sim);
   for (int k = 0; sph_integrator_info_get(k, &info); k++)
     if (!strcmp(info.name, m->method)) {
@@ -157,6 +159,16 @@ static int failed(work_run *r, int status, const char *why)
   return PROG_OK;
 }
 
+/* With its place in the case, where there is one. */
+static int sim_failed(work_run *r, const work_method *m, const sph_sim *sim)
+{
+  char place[200], why[sizeof r->reason];
+  const int known = sph_case_place(m->c, sph_sim_error(sim), place, sizeof place);
+  snprintf(why, sizeof why, "%s%s%.190s", known ? place : "", known ? ": " : "",
+           sph_sim_error(sim));
+  return failed(r, sph_sim_status(sim), why);
+}
+
 /* A method that steps all terms alike leaves aside which parts they belong to. */
 static void attach(sph_sim *sim, const work_method *m, const sph_integrator_def *def)
 {
@@ -170,7 +182,7 @@ static int go(work *w, work_run *r, sph_sim *sim, const work_method *m,
 {
   prog_progress progress;
   attach(sim, m, def);
-  if (sph_sim_evaluate(sim)) return failed(r, sph_sim_status(sim), sph_sim_error(sim));
+  if (sph_sim_evaluate(sim)) return sim_failed(r, m, sim);
   if (!w->fields.n) sph_prog_work_state_fields(sim, &w->fields);
   sph_prog_progress_start(&progress, sim, w->end, 1);
   if (w->o->timeout > 0 && r->method >= 0) progress.deadline = progress.start + w->o->timeout;
@@ -187,7 +199,7 @@ static int go(work *w, work_run *r, sph_sim *sim, const work_method *m,
     return failed(r, r->status, "it took longer than --timeout");
   if (r->status == SPH_ERR_STOPPED)
     return sph_prog_error(128 + sph_prog_progress_signal(), "stopped; nothing is written");
-  if (r->status) return failed(r, r->status, sph_sim_error(sim));
+  if (r->status) return sim_failed(r, m, sim);
   if (!r->state) r->state = sph_prog_work_state_take(sim, &w->fields);
   return r->state ? PROG_OK : sph_prog_error(PROG_FAILED, "out of memory: the state of a run");
 }
@@ -413,7 +425,7 @@ static int first_look(work *w)
   if (!sim)
     status = sph_prog_error(PROG_FAILED, "%s", error.text);
   else if (sph_sim_evaluate(sim))
-    status = sph_prog_error(PROG_FAILED, "%s: %s", w->o->what, sph_sim_error(sim));
+    status = sph_prog_sim_error(w->reference.c, sim, w->o->what);
   else
     sph_prog_work_state_fields(sim, &w->fields);
   sph_sim_free(sim);

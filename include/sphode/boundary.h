@@ -46,6 +46,9 @@ typedef struct sph_boundary {
   /* Where these are given they count in place of the two numbers above: temperature [K] > 0 at the
    * particles of the wall, of a mirror where its planes reflect particles; flux [W/m^2] there. */
   sph_surface *temperature_at, *heat_flux_at;
+  /* Where the displacement along x, y, z and the angle come from, as "piston.yml:3:14: push(t)",
+   * for the error that says that they are not finite; NULL: their names.  Borrowed, as ctx is. */
+  const char *source[4];
   void *ctx;            /* the user's, for all of these; borrowed unless free is given */
   void (*free)(void *); /* called once with ctx; may be NULL */
 } sph_boundary;

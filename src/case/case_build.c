@@ -98,9 +98,12 @@ static int set_motion(const builder *b, const sph_case_node *motion, sph_case_mo
   get_vector(motion, "velocity", m->velocity);
   m->slide = get_number(motion, "slide", 0) != 0;
   m->rate = get_number(child_of(motion, "rotation"), "angular_velocity", 0);
-  for (int d = 0; node && d < 3 && !status; node = node->next, d++)
+  for (int d = 0; node && d < 3 && !status; node = node->next, d++) {
     status = set_formula(b, node, 0, "displacement", &m->formula[d]);
+    sph_case_source_describe(b->c, "motion", "displacement", node, m->what[d]);
+  }
   if (!status && angle) status = set_formula(b, angle, 0, "angle", &m->angle);
+  if (angle) sph_case_source_describe(b->c, "rotation", "angle", angle, m->what[3]);
   if (status || sph_case_motion_begin(m, 1e-5 * sph_case_end(b->c)) == SPH_OK) return status;
   return displacement ? fail(b, displacement, "displacement: not finite at t = 0")
                       : fail(b, angle, "angle: not finite at t = 0");

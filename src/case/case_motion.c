@@ -10,8 +10,8 @@ static double at(sph_case_formula *formula, double t)
   return sph_case_value_formula_at(formula, 1, NULL, t, &x) ? NAN : x;
 }
 
-/* Central differences of fourth order, five points `step` apart.  Not a number becomes a state that
- * is not admissible, and the run says which. */
+/* Central differences of fourth order, five points `step` apart.  Not a number is an error of the
+ * run, which says where it comes from. */
 static void differences(sph_case_formula *formula, double start, double h, double t, double *x,
                         double *v, double *a)
 {
@@ -91,6 +91,7 @@ void sph_case_motion_set(sph_boundary *boundary, sph_case_motion *motion, int mo
   boundary->rotation = turns ? turn_to : NULL;
   boundary->temperature_at = motion->temperature ? temperature_at : NULL;
   boundary->heat_flux_at = motion->heat_flux ? heat_flux_at : NULL;
+  for (int k = 0; k < 4; k++) boundary->source[k] = motion->what[k][0] ? motion->what[k] : NULL;
   boundary->ctx = motion;
   boundary->free = sph_case_motion_free;
 }

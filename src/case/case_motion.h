@@ -7,6 +7,8 @@
 #include "sphode/checkpoint.h"
 #include "sphode/sim.h"
 
+enum { SPH_CASE_WHAT = 300 };
+
 typedef struct sph_case_motion {
   double since;                        /* [s] the velocity is this one; */
   double displacement[3], velocity[3]; /* the displacement there [m], [m/s] */
@@ -17,6 +19,7 @@ typedef struct sph_case_motion {
   double start[3], step;
   sph_case_formula *angle; /* owned; NULL: a steady rate [1/s] */
   double angle_start, rate;
+  char what[4][SPH_CASE_WHAT];               /* of the formulas and the angle, for messages */
   sph_case_formula *temperature, *heat_flux; /* owned; NULL: not by these */
 } sph_case_motion;
 

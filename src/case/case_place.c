@@ -23,7 +23,8 @@ static const sph_case_node *named(const sph_case_node *map, const char *message,
 int sph_case_place(const sph_case *c, const char *message, char *place, size_t size)
 {
   if (!c || !message || !place) return 0;
-  const sph_case_node *output = child_of(c->root, "output"), *groups = child_of(c->root, "groups");
+  const sph_case_node *output = child_of(c->root, "output"), *groups = child_of(c->root, "groups"),
+                      *terms = child_of(c->root, "terms");
   const struct {
     const char *word;
     const sph_case_node *map;
@@ -34,7 +35,10 @@ int sph_case_place(const sph_case *c, const char *message, char *place, size_t s
                {"the first of ", groups},
                {"group ", groups},
                {"wall ", groups},
-               {"term ", child_of(c->root, "scalars")}};
+               {"term ", child_of(c->root, "scalars")},
+               {"term ", terms},
+               {"right-hand side with ", terms},
+               {"", terms}}; /* it begins with one */
   const sph_case_node *node = NULL;
   for (size_t k = 0; k < sizeof table / sizeof *table && !node; k++)
     node = named(table[k].map, message, table[k].word);

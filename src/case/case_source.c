@@ -8,7 +8,7 @@
 
 #define child_of sph_case_reader_find
 
-enum { CHUNK = 256, WHAT = 300 };
+enum { CHUNK = 256 };
 
 /* Fields that sources of scalars know, before the scalar itself. */
 enum { DENSITY, PRESSURE, ENERGY, TEMPERATURE, SPEED, SCALAR, FIELDS };
@@ -17,7 +17,7 @@ typedef struct source {
   sph_sim *sim;
   int fields;                   /* FIELDS of a scalar, else 0 */
   sph_case_formula *formula[3]; /* NULL: there is no such direction; heating: the first */
-  char what[3][WHAT];           /* "file:line:column: body-force: acceleration 'sqrt(t)'" */
+  char what[3][SPH_CASE_WHAT];  /* "file:line:column: body-force: acceleration 'sqrt(t)'" */
 } source;
 
 static void release(void *ctx)
@@ -91,12 +91,12 @@ static int force(const sph_term *term, const sph_particles *s)
   return status;
 }
 
-static void describe(const sph_case *c, const char *term, const char *key,
-                     const sph_case_node *node, char what[WHAT])
+void sph_case_source_describe(const sph_case *c, const char *of, const char *key,
+                              const sph_case_node *node, char what[SPH_CASE_WHAT])
 {
   sph_error error = {0};
-  sph_case_schema_fail(c, &error, node, 1, 0, "%s: %s '%.100s'", term, key, node->text);
-  snprintf(what, WHAT, "%.*s", WHAT - 1, error.text);
+  sph_case_schema_fail(c, &error, node, 1, 0, "%s: %s '%.100s'", of, key, node->text);
+  snprintf(what, SPH_CASE_WHAT, "%.*s", SPH_CASE_WHAT - 1, error.text);
 }
 
 int sph_case_source_is(const sph_case_node *map)
@@ -120,7 +120,7 @@ int sph_case_source_add(const sph_case *c, sph_sim *sim, const sph_case_node *ma
       return sph_case_schema_fail(c, error, node, 1, value.column, "%s: %s",
                                   heats ? "power" : "acceleration", value.problem);
     }
-    describe(c, map->key, heats ? "power" : "acceleration", node, it->what[d]);
+    sph_case_source_describe(c, map->key, heats ? "power" : "acceleration", node, it->what[d]);
     if (heats) break;
   }
   sph_sim_add_term(sim, (sph_term){.name = map->key,
@@ -172,7 +172,7 @@ int sph_case_source_react(const sph_case *c, sph_sim *sim, const char *scalar,
     release(it);
     return sph_case_schema_fail(c, error, node, 1, value.column, "source: %s", value.problem);
   }
-  describe(c, scalar, "source", node, it->what[0]);
+  sph_case_source_describe(c, scalar, "source", node, it->what[0]);
   term->body = react;
   term->ctx = it;
   term->free = release;

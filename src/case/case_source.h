@@ -1,10 +1,14 @@
 /* case_source.h -- heating, body forces and sources of scalars by expressions in x, y, z, t. */
 #ifndef SPH_CASE_SOURCE_H
 #define SPH_CASE_SOURCE_H
+#include "case_motion.h"
 #include "case_schema.h"
 
 enum { SPH_CASE_SOURCE_NAMES = SPH_CASE_NAMES + 8 };
 
+/* "file:line:column: body-force: acceleration 'sqrt(t)'", for messages of a run. */
+void sph_case_source_describe(const sph_case *c, const char *of, const char *key,
+                              const sph_case_node *node, char what[SPH_CASE_WHAT]);
 /* Is this term one of them? */
 int sph_case_source_is(const sph_case_node *map);
 /* Adds it; a status, the reason in error or in the simulation. */

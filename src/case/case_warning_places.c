@@ -99,6 +99,53 @@ static int holds(const sph_group *group)
   return !sph_group_eos(group) || !sph_group_eos(group)->dust;
 }
 
+/* Is x, but for direction `up`, within a box? */
+static int within(const sph_group *group, long i, int dim, int up, const double *low,
+                  const double *high)
+{
+  int in = 1;
+  for (int d = 0; in && d < dim; d++) {
+    const double x = sph_group_read(group, "position", d)[i];
+    in = d == up || (x >= low[d] && x <= high[d]);
+  }
+  return in;
+}
+
+/* Has it one top, over half of its extent or more? */
+static int is_flat(const sph_sim *sim, const sph_group *group, int up, const double *low,
+                   const double *high)
+{
+  const double dx = sph_sim_dx(sim), *x = sph_group_read(group, "position", up);
+  double room = 1, top = 0;
+  for (int d = 0; d < sph_sim_dim(sim); d++)
+    if (d != up) room *= (high[d] - low[d]) / dx + 1;
+  for (long i = 0; i < sph_group_count(group); i++) top += x[i] > high[up] - 0.75 * dx;
+  return top > 0.5 * room;
+}
+
+/* The surface whose column it is given, and the one that it has: half a spacing above its highest
+ * particles.  Below something else, a lid or another liquid, it may have none. */
+static void look_at_surface(sph_case_finder *f, const sph_sim *sim, const sph_group *group,
+                            const sph_case_node *column, int up, const double *low,
+                            const double *high)
+{
+  const double dx = sph_sim_dx(sim), surface = sph_case_reader_number(column, "surface", 0);
+  const double above = (surface - high[up]) / dx - 0.5;
+  const sph_group *other;
+  if (!(fabs(above) > 0.75) || !is_flat(sim, group, up, low, high)) return;
+  for (int k = 0; (other = sph_sim_group_get(sim, k)); k++)
+    for (long i = 0; other != group && holds(other) && i < sph_group_count(other); i++) {
+      const double over = sph_group_read(other, "position", up)[i] - high[up];
+      if (over > 0 && over < 2.9 * dx && within(other, i, sph_sim_dim(sim), up, low, high)) return;
+    }
+  sph_case_warning_found(f, child_of(column, "surface"),
+                         "%g m is %.3g m (%.2g dx) %s the top of %s, which is at %.6g m: it will "
+                         "%s",
+                         surface, fabs(above) * dx, fabs(above), above > 0 ? "above" : "below",
+                         sph_group_name(group), high[up] + dx / 2,
+                         above > 0 ? "spring up" : "fall");
+}
+
 /* A liquid that is given the pressure of a column at rest, with nothing to stand on. */
 static void look_at_column(sph_case_finder *f, const sph_sim *sim, const sph_group *group,
                            const sph_case_node *column)
@@ -115,15 +162,12 @@ static void look_at_column(sph_case_finder *f, const sph_sim *sim, const sph_gro
       low[d] = fmin(low[d], x[i]), high[d] = fmax(high[d], x[i]);
   }
   if (sph_sim_periodic(sim, up, NULL, NULL)) return;
+  look_at_surface(f, sim, group, column, up, low, high);
   for (int k = 0; (other = sph_sim_group_get(sim, k)); k++) {
     if (other == group || !holds(other)) continue;
     for (long i = 0; i < sph_group_count(other); i++) {
-      int under = sph_group_read(other, "position", up)[i] < low[up];
-      for (int d = 0; under && d < dim; d++) {
-        const double x = sph_group_read(other, "position", d)[i];
-        under = d == up || (x >= low[d] && x <= high[d]);
-      }
-      if (under) beneath = fmax(beneath, sph_group_read(other, "position", up)[i]);
+      const double x = sph_group_read(other, "position", up)[i];
+      if (x < low[up] && within(other, i, dim, up, low, high)) beneath = fmax(beneath, x);
     }
   }
   const double gap = (low[up] - beneath) / sph_sim_dx(sim);

@@ -76,15 +76,36 @@ void sph_sim_walls_force(const sph_wall_motion *m, int dim, const double *g, con
     force[d] -= m->turn[2] * n_r[d] + m->turn[1] * m->turn[1] * n_n_r[d];
 }
 
+/* No shorter step makes it finite. */
+static int check_motion(sph_evaluation *e, const sph_group *wall, const sph_wall_motion *m)
+{
+  static const char *const name[4] = {"displacement along x", "displacement along y",
+                                      "displacement along z", "angle"};
+  for (int k = 0; k < 4; k++) {
+    const double sum = k < 3 ? m->displacement[k] + m->velocity[k] + m->acceleration[k]
+                             : m->turn[0] + m->turn[1] + m->turn[2];
+    if (isfinite(sum)) continue;
+    return sph_sim_fail(e->sim, SPH_ERR_STEP,
+                        "%s has no finite value, velocity or acceleration at t = %.9g s (wall %s); "
+                        "right is one that is finite up to the end of the run, as sqrt(max(0, "
+                        "...)) is",
+                        wall->boundary.source[k] ? wall->boundary.source[k] : name[k], e->t,
+                        wall->name);
+  }
+  return SPH_OK;
+}
+
 int sph_sim_walls_move(sph_evaluation *e)
 {
   const sph_sim *sim = e->sim;
   for (int g = 0; g < sim->groups && e->part->lists; g++) {
     const sph_group *wall = sim->group[g];
+    const int moves = wall->wall && sph_sim_walls_moves(&wall->boundary);
+    sph_wall_motion m = {.turns = 0};
+    if (moves) m = sph_sim_walls_motion(&wall->boundary, e->t);
+    if (moves && check_motion(e, wall, &m)) return sim->error.status;
     if (wall->wall && wall->model == SPH_MODEL_MIRROR) sph_sim_mirror_place(e, g);
-    if (!wall->wall || wall->model == SPH_MODEL_MIRROR || !sph_sim_walls_moves(&wall->boundary))
-      continue;
-    const sph_wall_motion m = sph_sim_walls_motion(&wall->boundary, e->t);
+    if (!moves || wall->model == SPH_MODEL_MIRROR) continue;
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (wall->n > PARALLEL_MIN)
     for (long i = 0; i < wall->n; i++) {
       double start[3] = {0}, x[3], v[3];

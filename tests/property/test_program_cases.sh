@@ -132,6 +132,8 @@ warns "water: sound speed 1480 m/s is 610 times the largest speed, about 2.43 m/
 warns "viscosity-laminar bounds steps to 1/7 of h/c" terms.viscosity-laminar= "groups.water.viscosity=500 Pa s"
 warns "hydrostatic: nothing holds this pressure: the particles beneath water are 0.115 m (7.67 dx) away" \
   "groups.tank.shapes=[layers: {lower: [0, -0.1 m], upper: [5*H, 3*H], open: [y+]}]"
+warns "surface: .* above the top of water, which is at .* m: it will spring up" "groups.water.initial.hydrostatic.surface=H + dx"
+warns "surface: .* below the top of water, which is at .* m: it will fall" "groups.water.initial.hydrostatic.surface=H - dx"
 warns "heat_flux: does nothing without the term conduction" "groups.tank.boundary={model: mirror, heat_flux: 1 W/m^2}"
 warns "wall tank has a temperature, but there is no conduction" "groups.tank.boundary={temperature: 300 K}"
 warns "linear: does nothing without an imex: method" integrator.linear=klu

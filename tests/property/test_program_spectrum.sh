@@ -43,6 +43,9 @@ refused 2 "too many of them" "9 of them; at most 8" "$wave" -o bad --set spacing
   --integrators "$(printf 'leapfrog,%.0s' {1..8})dkd"
 [[ ! -e bad && ! -e taylor-green-2d-spectrum ]]
 ok $? "what is refused leaves no folder"
+sed 's/^  pressure:.*/&\n  shifting: {speed: 1 m\/s, advection: false}/' "$wave" >shifted.yml
+line=$(grep -n "^  shifting" shifted.yml | cut -d: -f1)
+refused 1 "a term without derivatives, at its place" "shifted.yml:$line:3: no derivatives of a right-hand side with shifting" shifted.yml -o bad --set spacing=1/32
 refused 1 "what ended stays" "force" "$wave" -o wave --set spacing=1/32
 run 0 "$sphode" spectrum --help && grep -q -- --frozen out
 ok $? "help"

@@ -110,6 +110,15 @@ run 1 "$sphode" run root.yml -o root -q &&
   [[ -s root/failure.csv ]]
 ok $? "an acceleration that becomes not a number is told with its place, and leaves a failure.csv"
 
+sed '/^terms:/i\  piston:\n    kind: wall\n    density: 1000 kg/m^3\n    shapes: [box: {lower: [-9 cm, 0], upper: [0, H]}]\n    boundary:\n      motion: {displacement: [0 m, 1 cm*sqrt(1 - t/(20 ms))]}' block.yml >wall.yml
+run 1 "$sphode" run wall.yml -o wall -q &&
+  grep -q "wall.yml:17:36: motion: displacement '1 cm\*sqrt(1 - t/(20 ms))' has no finite value, velocity or acceleration at t = 0.0[12][0-9]* s (wall piston); right is one that is finite" err &&
+  [[ -s wall/failure.csv ]]
+ok $? "a motion that becomes not a number is told with its place, and leaves a failure.csv"
+rm -rf hurt && cp -r first hurt
+run 1 "$sphode" restart hurt -q --until 0.3s --set "output.probes.q={at: [9 m, 0.1 m]}" && grep -q "probe q: its places" err && cmp first/case.yml hurt/case.yml
+ok $? "a restart that does not begin leaves case.yml as it was"
+
 # ---- scalars
 
 cat >salt.yml <<'END'

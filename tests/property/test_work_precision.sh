@@ -118,6 +118,9 @@ refused 1 "a directory with results" "holds a run that ended or was stopped" "$s
 refused 2 "a tolerance that is no number" "--tolerances 1e-3,x: wanted" "$wave" --tolerances 1e-3,x -o x
 refused 2 "a step of zero" "--cfl 0: wanted" "$wave" --cfl 0 -o x
 refused 2 "an unknown field tells the known ones" "known are position, velocity, density" "$wave" --field pressure -o x
+sed 's/^  pressure:.*/&\n  conduction:/' "$wave" >heat.yml
+line=$(grep -n "^  conduction" heat.yml | cut -d: -f1)
+refused 1 "a term that does not fit, at its place" "heat.yml:$line:3: conduction needs a temperature" heat.yml -o x
 [[ ! -e x ]]
 ok $? "what is refused writes nothing"
 echo "1..$count"
