@@ -33,6 +33,7 @@ struct prog_live {
   double filled;             /* wall time [s] */
   prog_live_history history; /* the run's alone */
   char token[LIVE_TOKEN + 1];
+  char series[4096]; /* the table of the run */
 };
 
 static enum MHD_Result answer(struct MHD_Connection *connection, unsigned status, const char *type,
@@ -81,6 +82,15 @@ static enum MHD_Result send_frame(prog_live *live, struct MHD_Connection *connec
   return result;
 }
 
+static enum MHD_Result send_series(const prog_live *live, struct MHD_Connection *connection)
+{
+  size_t size = 0;
+  char *text = sph_prog_live_series_read(live->series, &size);
+  if (!text) return refuse(connection, MHD_HTTP_NOT_FOUND, "no series\n");
+  return answer(connection, MHD_HTTP_OK, "text/csv; charset=utf-8", size, text,
+                MHD_RESPMEM_MUST_FREE);
+}
+
 static enum MHD_Result command(prog_live *live, struct MHD_Connection *connection, const char *what)
 {
   int known = 1;
@@ -122,6 +132,7 @@ static enum MHD_Result serve(void *ctx, struct MHD_Connection *connection, const
   if (strcmp(method, "GET"))
     return refuse(connection, MHD_HTTP_METHOD_NOT_ALLOWED, "GET or POST\n");
   if (!strcmp(what, "frame")) return send_frame(live, connection);
+  if (!strcmp(what, "series")) return send_series(live, connection);
   if (*what) return refuse(connection, MHD_HTTP_NOT_FOUND, "not here\n");
   return answer(connection, MHD_HTTP_OK, "text/html; charset=utf-8", strlen(live_page), live_page,
                 MHD_RESPMEM_PERSISTENT);
@@ -147,7 +158,7 @@ static struct MHD_Daemon *listen_on(prog_live *live, int port)
                           MHD_OPTION_END);
 }
 
-prog_live *sph_prog_live_start(int port)
+prog_live *sph_prog_live_start(int port, const char *directory)
 {
   prog_live *live = calloc(1, sizeof *live);
   if (!live) {
@@ -155,6 +166,7 @@ prog_live *sph_prog_live_start(int port)
     return NULL;
   }
   snprintf(live->field, sizeof live->field, "velocity");
+  snprintf(live->series, sizeof live->series, "%s/series.csv", directory);
   pthread_mutex_init(&live->lock, NULL);
   pthread_cond_init(&live->told, NULL);
   if (make_token(live->token)) live->daemon = listen_on(live, port);
@@ -211,9 +223,9 @@ void sph_prog_live_end(prog_live *live)
 
 #else
 
-prog_live *sph_prog_live_start(int port)
+prog_live *sph_prog_live_start(int port, const char *directory)
 {
-  (void)port;
+  (void)port, (void)directory;
   sph_prog_error(PROG_FAILED, "--live: this sphode was built without libmicrohttpd; install it "
                               "(Debian: libmicrohttpd-dev), then configure and make again");
   return NULL;

@@ -13,7 +13,7 @@ enum { LIVE_PARTICLES = 20000, LIVE_HISTORY = 400 };
 typedef struct prog_live_history { /* the whole run; where it is full every second row goes */
   int n, every, skipped;
   double last, pairs;          /* at the last row: wall time [s], pairs so far */
-  double row[LIVE_HISTORY][4]; /* t, dt, kinetic energy, million pairs a second */
+  double row[LIVE_HISTORY][3]; /* t, dt, million pairs a second */
 } prog_live_history;
 
 typedef struct prog_live_frame {
@@ -27,13 +27,18 @@ void sph_prog_live_frame_note(prog_live_history *history, sph_sim *sim);
 int sph_prog_live_frame_fill(prog_live_frame *frame, sph_sim *sim, const char *field, double end,
                              int paused, const prog_live_history *history);
 
+/* The head and some 400 whole rows of a table, evenly from the first to the last (malloc), of any
+ * length that it has grown to; NULL: there is none, or no memory. */
+char *sph_prog_live_series_read(const char *path, size_t *size);
+
 /* ---- the server (prog_live.c) */
 
 typedef struct prog_live prog_live;
 
 /* Serves http://127.0.0.1:PORT/TOKEN/, port 0: a free one, and tells the address; NULL, told: it
- * cannot, or there is no libmicrohttpd in this build. */
-prog_live *sph_prog_live_start(int port);
+ * cannot, or there is no libmicrohttpd in this build.  directory: of the run, whose series.csv the
+ * page draws columns of. */
+prog_live *sph_prog_live_start(int port, const char *directory);
 /* After a step, in the thread of the run to time `end`: shows it where somebody looks, and waits
  * while the run is paused; 1: the page wants it stopped.  is_stopped ends the waiting. */
 int sph_prog_live_step(prog_live *live, sph_sim *sim, double end, int (*is_stopped)(void *ctx),

@@ -19,13 +19,11 @@ void sph_prog_live_frame_note(prog_live_history *history, sph_sim *sim)
     history->n = LIVE_HISTORY / 2, history->every *= 2;
   }
   sph_sim_stats s;
-  sph_balance b;
   sph_sim_get_stats(sim, &s);
-  sph_sim_balance(sim, &b);
   const double now = sph_prog_progress_now(), used = now - history->last;
   const double rate = history->last > 0 && used > 0 ? 1e-6 * (s.pairs - history->pairs) / used : 0;
   history->last = now, history->pairs = s.pairs;
-  const double row[] = {sph_sim_time(sim), s.step.dt_last, b.kinetic, rate};
+  const double row[] = {sph_sim_time(sim), s.step.dt_last, rate};
   memcpy(history->row[history->n++], row, sizeof row);
 }
 
@@ -140,8 +138,8 @@ static int put_history(prog_live_frame *frame, const prog_live_history *history)
   int bad = put(frame, "\"history\":[");
   for (int k = 1; k < history->n && !bad; k++) { /* the first knows no rate */
     const double *row = history->row[k];
-    bad = put(frame, "%s[%.7g,%.4g,%.7g,%.4g]", k > 1 ? "," : "", number(row[0]), number(row[1]),
-              number(row[2]), number(row[3]));
+    bad = put(frame, "%s[%.7g,%.4g,%.4g]", k > 1 ? "," : "", number(row[0]), number(row[1]),
+              number(row[2]));
   }
   return bad || put(frame, "]");
 }

@@ -102,7 +102,7 @@ void sph_prog_run_outputs(prog_job *j)
 int sph_prog_run_listen(prog_job *j)
 {
   if (!j->o->live) return PROG_OK;
-  j->page = sph_prog_live_start(j->o->port);
+  j->page = sph_prog_live_start(j->o->port, j->directory);
   return j->page ? PROG_OK : PROG_FAILED;
 }
 
@@ -122,10 +122,10 @@ static int prepare(prog_job *j)
   if (!j->c) return failed(&error);
   int status = sph_prog_run_build(j);
   if (status) return status;
+  name_directory(j);
   status = sph_prog_run_listen(j);
   if (status) return status;
   j->end = sph_case_end(j->c);
-  name_directory(j);
   j->held = sph_prog_directory_take(j->directory, j->o->force);
   if (j->held < 0) return PROG_FAILED;
   warn(j);
