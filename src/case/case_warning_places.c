@@ -153,7 +153,7 @@ static void look_at_column(sph_case_finder *f, const sph_sim *sim, const sph_gro
   const int dim = sph_sim_dim(sim);
   const char last[2] = {"xyz"[dim - 1]};
   const int up = get_text(column, "axis", last)[0] - 'x';
-  double low[3], high[3], beneath = -INFINITY;
+  double low[3] = {0}, high[3] = {0}, beneath = -INFINITY;
   const sph_group *other;
   for (int d = 0; d < dim; d++) {
     const double *x = sph_group_read(group, "position", d);
