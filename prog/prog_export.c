@@ -24,7 +24,7 @@ static int is_listed(const char *list, const char *word)
   return 0;
 }
 
-/* Which formats are wanted, by --format or by their own options; returns how many, or -1, told. */
+/* Which formats are wanted, by --format or by their own options; returns how many; 0: told. */
 static int take_formats(const prog_options *o, const char *format[FORMATS])
 {
   const char *name;
@@ -39,9 +39,10 @@ static int take_formats(const prog_options *o, const char *format[FORMATS])
   }
   for (const char *at = o->format; at && (at = strchr(at, ',')); at++) words++;
   if (n > 0 && words == known) return n;
-  return sph_prog_error(-1,
-                        "export%s%s wants some of csv, vtu, gadget, splash, with commas between",
-                        o->format ? " --format " : ": --format", o->format ? o->format : "");
+  sph_prog_error(PROG_USAGE,
+                 "export%s%s wants some of csv, vtu, gadget, splash, with commas between",
+                 o->format ? " --format " : ": --format", o->format ? o->format : "");
+  return 0;
 }
 
 /* Of several formats only the first one tells what is left out. */
@@ -73,7 +74,7 @@ int sph_prog_export(const prog_options *o)
 {
   const char *format[FORMATS];
   const int n = take_formats(o, format);
-  int status = n < 0 ? PROG_USAGE : PROG_OK;
+  int status = n ? PROG_OK : PROG_USAGE;
   for (int k = 0; k < n && status != PROG_USAGE; k++)
     if (export_one(o, format[k], k == 0, n > 1)) status = PROG_FAILED;
   return status;

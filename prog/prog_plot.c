@@ -55,10 +55,12 @@ static void name_table(const prog_options *o, char csv[4096], char png[4096])
 /* --at: "0.1,250ms" are 0.1 and 0.25 s; time[PROG_FRAMES], returns how many, or -1, told. */
 static int take_times(const prog_options *o, double *time)
 {
+  const char *at = o->at;
   int n = 0;
-  for (const char *at = o->at; at && (n == 0 || *at == ',');) {
+  if (!at) return 0;
+  do {
     char *end;
-    at += *at == ',';
+    at += *at == ',' && n > 0;
     const double t = strtod(at, &end);
     int right = end != at && t >= 0 && t < 1e30 && n < PROG_FRAMES;
     end += strspn(end, " ");
@@ -70,7 +72,7 @@ static int take_times(const prog_options *o, double *time)
                             o->at, PROG_FRAMES);
     time[n++] = t * unit;
     at = end;
-  }
+  } while (*at);
   return n;
 }
 

@@ -8,7 +8,8 @@
 #include "gnuplot.h"
 #include "memory.h"
 
-enum { SAMPLES = 2000000 }; /* of values, for the range of colours */
+static const double half_slice = 0.75; /* of its thickness in 3D, in spacings */
+enum { SAMPLES = 2000000 };            /* of values, for the range of colours */
 
 /* Pixels. */
 static const double left = 80, right = 145, top = 45, bottom = 60, gap_x = 60, gap_y = 36;
@@ -64,7 +65,7 @@ void sph_picture_view(sph_picture *p)
 
 static int visible(const sph_picture *p, const double *x)
 {
-  if (p->slice >= 0 && fabs(x[p->slice] - p->slice_at) > 0.75 * p->spacing) return 0;
+  if (p->slice >= 0 && fabs(x[p->slice] - p->slice_at) > half_slice * p->spacing) return 0;
   if (x[p->across] < p->lo[0] || x[p->across] > p->hi[0]) return 0;
   return p->dim == 1 || (x[p->up] >= p->lo[1] && x[p->up] <= p->hi[1]);
 }
@@ -254,7 +255,11 @@ static void add_axes(const sph_picture *p, int k, double time, sph_text *script)
     snprintf(text, sizeof text, "%.*f", p->decimals, time);
   else
     snprintf(text, sizeof text, "%.4g", time);
-  sph_text_add(script, "set label 1 't = %s s' at graph 0, 1 offset 0, 0.8 left\n", text);
+  sph_text_add(script, "set label 1 't = %s s", text);
+  if (p->slice >= 0)
+    sph_text_add(script, ", slice %c = %.3g m, %.2g m thick", "xyz"[p->slice], p -> slice_at,
+                 2 * half_slice * p -> spacing);
+  sph_text_add(script, "' at graph 0, 1 offset 0, 0.8 left\n");
   sph_text_add(script, "set xtics %.6g format '%s'; set xlabel '",
                tics((p->hi[0] - p->lo[0]) / p->length, panel_x, 70), lowest ? "%g" : "");
   if (lowest) sph_text_add(script, "%c [%s]", letter(p, 0), p->length_unit);

@@ -11,6 +11,8 @@ static const char *const colours[] = {"#31688e", "#35b779", "#d95f02",
                                       "#7570b3", "#e7298a", "#a6761d"};
 static const char *const walls[] = {"#8a8a8a", "#bdbdbd", "#5c5c5c", "#a89f91", "#d8cfc0"};
 
+static const double half_slice = 0.75; /* of its thickness in 3D, in spacings */
+
 typedef struct view {
   const sph_sim *sim;
   int dim, across, up, slice; /* directions; slice: looked along in 3D, else -1 */
@@ -52,7 +54,7 @@ static long add_group(const view *v, const sph_group *group, sph_text *data)
   long shown = 0;
   for (int d = 0; d < v->dim; d++) x[d] = sph_group_read(group, "position", d);
   for (long i = 0; x[0] && i < sph_group_count(group); i++) {
-    if (v->slice >= 0 && fabs(x[v->slice][i] - v->at) > 0.75 * sph_sim_dx(v->sim)) continue;
+    if (v->slice >= 0 && fabs(x[v->slice][i] - v->at) > half_slice * sph_sim_dx(v->sim)) continue;
     sph_text_add(data, "%.6g %.6g\n", x[v->across][i], v->dim == 1 ? 0 : x[v->up][i]);
     shown++;
   }
@@ -72,8 +74,9 @@ static int height(const view *v)
 static void add_head(const view *v, const char *title, sph_text *script)
 {
   char about[200];
-  snprintf(about, sizeof about, v->slice < 0 ? "%.120s" : "%.120s, at %c = %.3g m",
-           title ? title : "", "xyz"[v->slice < 0 ? 0 : v->slice], v -> at);
+  snprintf(about, sizeof about, v->slice < 0 ? "%.120s" : "%.120s, slice %c = %.3g m, %.2g m thick",
+           title ? title : "", "xyz"[v->slice < 0 ? 0 : v->slice], v -> at,
+           2 * half_slice * sph_sim_dx(v->sim));
   sph_text_add(script, "set title ");
   sph_text_gnuplot_string(script, about);
   sph_text_add(

@@ -415,6 +415,45 @@ static void planes_are_maps(void **state)
   assert_int_equal(sph_plot_plane(NULL, "p", 1, in("plane.png"), NULL), SPH_ERR_ARGUMENT);
 }
 
+/* Maps of a field that is known: its numbers at the places of the plane, at each time asked for. */
+static void maps_have_the_numbers_of_a_field(void **state)
+{
+  (void)state;
+  sph_error error = {0};
+  char csv[FOLDER_MAX + 100];
+  FILE *file = fopen(in("field.csv"), "w");
+  fprintf(file, "time [s],x [m],y [m],p [Pa]\n");
+  for (int k = 0; k < 3; k++)
+    for (int j = 0; j < 4; j++)
+      for (int i = 0; i < 5; i++)
+        fprintf(file, "%.17g,%.17g,%.17g,%.17g\n", 0.5 * k, 0.1 * i, 0.2 * j,
+                1000 * (0.6 - 0.2 * j) * (1 + k) + 7 * i);
+  fclose(file);
+  snprintf(csv, sizeof csv, "%s", in("field.csv"));
+  const double times[] = {0.9, 0.1, 0.6};
+  int status = sph_plot_plane_at(csv, "p", times, 3, in("field.png"), &error);
+  assert_true(status == SPH_OK || status == SPH_ERR_UNBUILT);
+  char *data = slurp("field.dat"), *rest = NULL;
+  int rows = 0, frame = -1;
+  static const int order[] = {2, 0, 1};
+  for (char *line = strtok_r(data, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+    double t, x, y, p;
+    if (sscanf(line, "# t = %lf s", &t) == 1) {
+      assert_in_range(++frame, 0, 2);
+      assert_near(t, 0.5 * order[frame], 1e-12);
+      assert_int_equal(rows, 20 * frame);
+    } else if (frame >= 0 && sscanf(line, "%lf %lf %lf", &x, &y, &p) == 3) {
+      assert_near(x, 0.1 * (rows % 5), 1e-6);
+      assert_near(y, 0.2 * (rows / 5 % 4), 1e-6);
+      assert_near(p, 1000 * (0.6 - y) * (1 + order[frame]) + 70 * x, 1e-2);
+      rows++;
+    }
+  }
+  assert_int_equal(rows, 60);
+  free(data);
+  assert_int_equal(sph_plot_plane_at(csv, "p", NULL, 3, in("field.png"), NULL), SPH_ERR_ARGUMENT);
+}
+
 static int make(void **state)
 {
   (void)state;
@@ -436,6 +475,7 @@ int main(void)
                                      cmocka_unit_test(restart_leaves_no_gap),
                                      cmocka_unit_test(mistakes),
                                      cmocka_unit_test(planes_are_maps),
+                                     cmocka_unit_test(maps_have_the_numbers_of_a_field),
                                      cmocka_unit_test(case_file)};
   return cmocka_run_group_tests_name("probes", tests, make, clean);
 }

@@ -195,6 +195,16 @@ ok $? "snapshots at chosen times"
 run 2 "$sphode" plot cavity --at 0.1,x && grep -q -e "--at 0.1,x: wanted 1 to 16 times" err && run 2 "$sphode" plot cavity --at 0.1, && run 2 "$sphode" plot cavity --at 0.1s1 &&
   run 2 "$sphode" plot cavity --at 0.1 --table probe_l.csv --series density && grep -q "wants --over" err
 ok $? "times that are none"
+# 3D: which slice is seen.
+if command -v gnuplot >/dev/null; then
+  run 0 "$sphode" check "$SRCDIR/cases/piston-hill-3d.yml" --set dx=4cm --picture hill.png && grep -q "over a hill, slice y = 0.12 m, 0.06 m thick'" hill.gp &&
+    awk 'NF == 2 { n++ } END { exit !(n > 100) }' hill.dat &&
+    run 0 "$sphode" run "$SRCDIR/cases/piston-hill-3d.yml" -q -o hill --lenient --set dx=4cm --set run.end=1ms && run 0 "$sphode" plot hill --frames 1 &&
+    grep -q "^set label 1 't = 0 s, slice y = 0.12 m, 0.06 m thick'" hill/frames.gp
+  ok $? "slices of 3D tell their place and thickness"
+else
+  ok 0 "slices of 3D # SKIP no gnuplot"
+fi
 # A panel for each unit, in the order of the columns; one axis of time.
 draws d1 --series kinetic,dt,potential,front && awk '
   /^set ylabel/ { panel[++n] = $3 " " $4 } /^set xlabel / && /time/ { x[n]++ }

@@ -99,6 +99,34 @@ for set in alpha=0.2 terms.viscosity-artificial.alpha=0.2 terms.viscosity-artifi
   taken "$set"
 done
 
+# ... and has an effect: each is seen in what the restart writes.
+effect() { # NAME KEY=VALUE CONDITION: on hurt/, beside same/, which nothing was set in
+  rm -rf hurt
+  cp -r sheared hurt
+  run 0 "$sphode" restart hurt --until 0.22s --set "$2" && eval "$3"
+  ok $? "$1 takes effect: $2"
+}
+run 0 "$sphode" run block.yml -q -o sheared --set run.end=0.2s --set "groups.water.initial.velocity=[5 m/s + 3/s*y, 0 m/s]" \
+  --set "terms.viscosity-laminar={}" && cp -r sheared same &&
+  run 0 "$sphode" restart same -q --until 0.22s
+ok $? "a block that is sheared"
+last() { tail -n 1 "$1/series.csv" | cut -d, -f"$2"; } # DIR COLUMN
+column=$(head -n 1 same/series.csv | tr , '\n' | grep -n "^kinetic" | cut -d: -f1)
+less() { awk -v a="$(last hurt "$column")" -v b="$(last same "$column")" 'BEGIN { exit !(a < b * (1 - 1e-9) && a > 0.9 * b) }'; }
+effect "artificial viscosity" terms.viscosity-artificial.alpha=0.4 less
+effect "a parameter behind it" alpha=0.4 less
+effect "a viscosity" "groups.water.viscosity=5 Pa s" less
+effect "the steps" integrator.cfl=0.1 '(($(last hurt 2) > $(last same 2) + 5))'
+effect "the integrator" integrator.method=leapfrog 'grep -q leapfrog hurt/summary.json && ! grep -q leapfrog same/summary.json'
+effect "an interval of series" "output.series=5 ms" '[[ $(awk -F, "NR > 1 && \$1 > 0.2001 { print \$1 }" hurt/series.csv | tr "\n" " ") == "0.205 0.21 0.215 0.22 " ]]'
+effect "an interval of a probe" "output.probes.p.interval=5 ms" '[[ $(awk -F, "NR > 1 && \$1 > 0.2001" hurt/probe_p.csv | wc -l) == 4 && $(awk -F, "NR > 1 && \$1 > 0.2001" same/probe_p.csv | wc -l) == 2 ]]'
+seventh() { ls "$1" | sed -n 's/^checkpoint_0*\([0-9]*\).hdf/\1/p' | awk '$1 % 7 == 0 { found = 1 } END { exit !found }'; }
+effect "checkpoints" checkpoint.steps=7 'seventh hurt && ! seventh same'
+effect "a new probe" "output.probes.q={at: [1 m, 0.1 m]}" '[[ $(awk -F, "\$2 == 1" hurt/probe_q.csv | wc -l) -ge 2 ]]'
+effect "an event" "events.late={when: {time: 0.21 s}}" 'grep -q "^0.2[01][0-9]*,[0-9]*,late" hurt/events.csv'
+effect "the title" title=another 'head -n 1 out | grep -qx another'
+effect "the picture" plot.field=pressure 'grep -q "^set cblabel .pressure" hurt/frames.gp'
+
 run 1 "$sphode" restart first -q --until 0.1s && grep -q -- "--until 0.1s: the run came to t = 0.2 s (first/checkpoint_.*); right is a later time, as --until 0.4s" err
 ok $? "--until a time that is over"
 
