@@ -128,15 +128,23 @@ tile_constants sph_sim_interaction_tile(const sph_evaluation *e, const fluid_con
   return k;
 }
 
+static void add_tiles(const sph_evaluation *e, const sph_share *share, int target, int source,
+                      const fluid_constants *fluid, unsigned fused)
+{
+  tile_constants k = sph_sim_interaction_tile(e, fluid, target, source);
+  k.fused = fused;
+  sph_sim_pairs_loop_share(e->sim, share,
+                           sph_tile_loop(e->sim->isa, e->sim->kernel_number, e->sim->dim, fused),
+                           target, source, &k);
+}
+
 void sph_sim_interaction_tiles(const sph_evaluation *e, const sph_share *share, int target,
                                int source)
 {
   const sph_sim *sim = e->sim;
   const fluid_constants fluid =
       sph_sim_interaction_constants(sim, e->part, sim->group[target], sim->group[source]);
-  const tile_constants k = sph_sim_interaction_tile(e, &fluid, target, source);
-  sph_sim_pairs_loop_share(sim, share, sph_tile_loop(sim->isa, sim->kernel_number, sim->dim),
-                           target, source, &k);
+  add_tiles(e, share, target, source, &fluid, 0);
 }
 
 void sph_sim_interaction_add(const sph_evaluation *e, const sph_share *share, int target,
@@ -145,12 +153,13 @@ void sph_sim_interaction_add(const sph_evaluation *e, const sph_share *share, in
   const sph_sim *sim = e->sim;
   const fluid_constants k =
       sph_sim_interaction_constants(sim, e->part, sim->group[target], sim->group[source]);
-  if (k.terms & SPH_PAIR_TERMS)
+  const int tiles = e->part->tiles && !sim->group[target]->eos.dust;
+  const int acts = (k.terms & SPH_PAIR_TERMS) != 0, together = tiles && !(k.terms & SPH_RARE);
+  if (acts && !together)
     sph_sim_pairs_loop_share(sim, share,
                              sph_fluid_loop(sim->isa, sim->kernel_number, sim->dim, k.terms),
                              target, source, &k);
-  if (e->part->tiles && !sim->group[target]->eos.dust)
-    sph_sim_interaction_tiles(e, share, target, source);
+  if (tiles) add_tiles(e, share, target, source, &k, together && acts ? k.terms : 0);
 }
 
 /* ---- which fields tiles hold ---- */
@@ -238,14 +247,12 @@ static int read_adds(sph_sim *sim, sph_part *part, const sph_called_term *call)
 }
 
 /* What is shown for other than the terms: where viscous terms see what others do, it stands there
- * once; the work of forces. */
+ * once. */
 static unsigned shown_besides(const sph_part *part)
 {
   unsigned show = 0;
   if (part->tile_show & SPH_TILE_V_VISCOUS) show |= SPH_TILE_V;
   if (part->tile_show & SPH_TILE_RV_VISCOUS) show |= SPH_TILE_RV;
-  if (part->tile_adds & SPH_TILE_ALONG_R) show |= SPH_TILE_RV;
-  if (part->tile_adds & SPH_TILE_ALONG_V) show |= SPH_TILE_V;
   return show;
 }
 

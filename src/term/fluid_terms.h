@@ -62,8 +62,8 @@ BODY void fluid_terms_corrected(int dim, unsigned terms, pair *p, const particle
   p->stretch = rBr / fluid_apart(p->r2);
 }
 
-/* One pair: the bodies of its terms, closed by fluid_pair_forces. */
-BODY void fluid_pair(int dim, int kernel, unsigned terms, const fluid_constants *k,
+/* One pair: the bodies of its terms, closed by fluid_pair_forces; what they share of it. */
+BODY pair fluid_pair(int dim, int kernel, unsigned terms, const fluid_constants *k,
                      const vec *slot_i, const vec *slot_j, vec *sum)
 {
   const particle i = fluid_particle(dim, terms, slot_i), j = fluid_particle(dim, terms, slot_j);
@@ -76,6 +76,7 @@ BODY void fluid_pair(int dim, int kernel, unsigned terms, const fluid_constants 
   }
   fluid_terms(dim, kernel, terms, &p, k, &i, &j, sum);
   fluid_pair_forces(dim, terms, &p, sum);
+  return p;
 }
 
 #endif

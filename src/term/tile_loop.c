@@ -9,9 +9,23 @@ static const sph_tile_table *const tables[SPH_ISA_COUNT] = {
 #undef ROW
 };
 
-sph_pair_function *sph_tile_loop(int isa, int kernel, int dim)
+static int set_of(unsigned fused)
 {
-  return tables[isa]->loop[kernel][dim - 1];
+  const tile_constants constants = {.fused = fused}, *k = &constants; /* "any" matches, last */
+#define MATCH(dim, name, mask) \
+  if (fused == (mask)) return SPH_TILE_SET_##name;
+  SPH_TILE_SETS(MATCH, )
+#undef MATCH
+  return SPH_TILE_SET_any;
+}
+
+sph_pair_function *sph_tile_loop(int isa, int kernel, int dim, unsigned fused)
+{
+  const sph_tile_table *table = tables[isa];
+  const int set = set_of(fused);
+  if (kernel == SPH_KERNEL_WENDLAND_C2 && table->constant[dim - 1][set])
+    return table->constant[dim - 1][set];
+  return fused ? table->any[dim - 1] : table->none[dim - 1];
 }
 
 sph_matrix_function *sph_tile_loop_matrix(int isa, int dim) { return tables[isa]->matrix[dim - 1]; }

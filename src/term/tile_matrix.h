@@ -40,9 +40,11 @@ static __attribute__((noinline, unused)) void tile_jacobian(int dim, tile_matrix
   }
 }
 
-BODY void tile_matrix_take(int dim, tile_kernel *kernel, const vec *v, tile_matrix *it, int n)
+static __attribute__((noinline, unused)) void tile_matrix_take(int dim, const vec *v,
+                                                               tile_matrix *it, int n)
 {
-  tile_fill(dim, kernel, it->k, v, &it->rows, n);
+  tile_fill_pair(dim, it->k, v, &it->rows, n);
+  tile_fill(dim, it->k, v, &it->rows, n);
   tile_jacobian(dim, it, n);
   for (int q = 0; q < n; q++) {
     const vec value = it->weight * it->rows.push[q];
@@ -86,7 +88,7 @@ BODY void tile_matrix_close(int dim, tile_matrix *it, long b)
 }
 
 /* All pairs of one block. */
-BODY void tile_matrix_block(int dim, tile_kernel *kernel, tile_matrix *it, long b)
+BODY void tile_matrix_block(int dim, tile_matrix *it, long b)
 {
   const sph_pair_task *t = it->task->pairs;
   const double *record = t->target + b * SPH_LANES * t->target_stride;
@@ -109,20 +111,19 @@ BODY void tile_matrix_block(int dim, tile_kernel *kernel, tile_matrix *it, long 
       it->bits[n] = bits;
       tile_row(dim, x, source, &it->rows, n++);
       if (n < SPH_TILE_ROWS) continue;
-      tile_matrix_take(dim, kernel, v, it, n);
+      tile_matrix_take(dim, v, it, n);
       n = 0;
     }
   }
-  if (n > 0) tile_matrix_take(dim, kernel, v, it, n);
+  if (n > 0) tile_matrix_take(dim, v, it, n);
   tile_matrix_close(dim, it, b);
 }
 
-BODY void tile_matrix_blocks(int dim, tile_kernel *kernel, const sph_matrix_task *t, long begin,
-                             long end)
+BODY void tile_matrix_blocks(int dim, const sph_matrix_task *t, long begin, long end)
 {
   tile_matrix it = {.task = t, .k = t->pairs->constants, .vector = t->vector};
   for (long b = begin; b < end; b++)
-    if (t->pairs->first[b] < t->pairs->first[b + 1]) tile_matrix_block(dim, kernel, &it, b);
+    if (t->pairs->first[b] < t->pairs->first[b + 1]) tile_matrix_block(dim, &it, b);
 }
 
 #endif

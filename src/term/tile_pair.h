@@ -1,14 +1,14 @@
 /* tile_pair.h -- pair terms that are registered at run time, tile by tile (sph_tile).
  *
- * A tile is a block of targets times up to SPH_TILE_ROWS sources.  It shows what the terms read,
- * each term adds to it, then its rows are summed, and heated, as built-in terms are; these have a
- * loop of their own.  Filling what is read costs most: a store for each lane of each. */
+ * A tile is a block of targets times up to SPH_TILE_ROWS sources.  The loop over pairs in which
+ * built-in terms act keeps r2, rv and F of each; once the tile is full, what else the terms read is
+ * filled in, each term adds to it, and its rows are summed, and heated, as built-in terms are. */
 #ifndef SPH_TILE_PAIR_H
 #define SPH_TILE_PAIR_H
-#include "fluid_pair.h"
+#include "fluid_terms.h"
 #include "sphode/term.h"
 
-enum { SPH_TILE_ROWS = 16, SPH_TILE_TERMS = 32 };
+enum { SPH_TILE_ROWS = 16, SPH_TILE_TERMS = 32, SPH_TILE_SLOTS = 14 };
 
 /* Fields that a tile can hold of both ends. */
 enum sph_tile_field {
@@ -67,6 +67,7 @@ typedef struct tile_constants {
   const char *target, *source;
   int scalars;
   int isothermal;  /* the source is a wall with a temperature of its own */
+  unsigned fused;  /* built-in terms that act in the same loop; none of SPH_RARE */
   unsigned fields; /* bit of each field that any of them reads */
   unsigned adds;   /* enum sph_tile_add that any of them adds to */
   unsigned show;   /* enum sph_tile_show that any of them reads, or that summing does */
@@ -89,6 +90,9 @@ typedef struct tile_rows {
   vec drho[SPH_TILE_ROWS], du[SPH_TILE_ROWS], ds[SPH_SCALARS_MAX][SPH_TILE_ROWS];
   vec i[SPH_TILE_FIELDS][SPH_TILE_ROWS], j[SPH_TILE_FIELDS][SPH_TILE_ROWS];
 } tile_rows;
+
+/* Slots of a record that built-in terms may read in this loop. */
+BODY int tile_slots(int dim) { return slot_u(dim) + 1; }
 
 BODY int tile_slot(int dim, int field)
 {
@@ -147,9 +151,15 @@ BODY void tile_sources(int dim, const tile_constants *k, tile_rows *rows, int n)
   }
 }
 
-/* v_i - v_j, where it is kept, and r.v, with the velocity that sources have in these slots. */
-BODY void tile_velocities(int dim, const vec *v_i, int slot, int n, const tile_rows *rows, int keep,
-                          vec (*v)[SPH_TILE_ROWS], vec *rv)
+/* v_i - v_j, and r.v, with the velocity that sources have in these slots. */
+BODY void tile_v(int dim, const vec *v_i, int slot, int n, const tile_rows *rows,
+                 vec (*v)[SPH_TILE_ROWS])
+{
+  for (int q = 0; q < n; q++)
+    for (int d = 0; d < dim; d++) v[d][q] = v_i[d] - rows->source[q][slot + d];
+}
+
+BODY void tile_rv(int dim, const vec *v_i, int slot, int n, const tile_rows *rows, vec *rv)
 {
   for (int q = 0; q < n; q++) {
     const double *v_j = rows->source[q] + slot;
@@ -157,37 +167,32 @@ BODY void tile_velocities(int dim, const vec *v_i, int slot, int n, const tile_r
     for (int d = 0; d < dim; d++) dot += rows->r[d][q] * (v_i[d] - v_j[d]);
     rv[q] = dot;
   }
-  for (int q = 0; keep && q < n; q++)
-    for (int d = 0; d < dim; d++) v[d][q] = v_i[d] - rows->source[q][slot + d];
 }
 
-/* F of rows 0 .. n - 1, in the unit of users: all that knows the kernel. */
-typedef void tile_kernel(const tile_constants *k, tile_rows *rows, int n);
-
-BODY void tile_F(int dim, int kernel, const tile_constants *k, tile_rows *rows, int n)
-{
-  const double inverse_h = k->fluid.inverse_h, scale = k->F_scale;
-  for (int q = 0; q < n; q++)
-    rows->F[q] = scale * kernel_shape_f_at(kernel, dim, v_sqrt(rows->r2[q]), inverse_h);
-}
-
-/* What is read of rows 0 .. n - 1 besides r and r2, one after another: short loops, whose roots and
- * divisions overlap. */
-BODY void tile_fill(int dim, tile_kernel *kernel, const tile_constants *k, const vec *v,
-                    tile_rows *rows, int n)
+/* What is read of rows 0 .. n - 1 besides r, r2, rv and F, one after another: short loops. */
+BODY void tile_fill(int dim, const tile_constants *k, const vec *v, tile_rows *rows, int n)
 {
   const unsigned show = k->show;
-  if (show & SPH_TILE_F) kernel(k, rows, n);
   if (show & SPH_TILE_VOLUME)
     for (int q = 0; q < n; q++) rows->V[q] = v_set(rows->source[q][slot_V(dim)]);
   if (show & SPH_TILE_MASS)
     for (int q = 0; q < n; q++)
       rows->m[q] = v_set(rows->source[q][slot_V(dim)] * rows->source[q][slot_rho(dim)]);
-  if (show & (SPH_TILE_V | SPH_TILE_RV))
-    tile_velocities(dim, v, slot_v(dim), n, rows, (show & SPH_TILE_V) != 0, rows->v, rows->rv);
-  if (k->fluid.terms & SPH_NO_SLIP)
-    tile_velocities(dim, v, slot_extra(dim), n, rows, 1, rows->v_viscous, rows->rv_viscous);
+  if (show & SPH_TILE_V) tile_v(dim, v, slot_v(dim), n, rows, rows->v);
+  if (k->fluid.terms & SPH_NO_SLIP) {
+    tile_v(dim, v, slot_extra(dim), n, rows, rows->v_viscous);
+    tile_rv(dim, v, slot_extra(dim), n, rows, rows->rv_viscous);
+  }
   tile_sources(dim, k, rows, n);
+}
+
+/* rv and F, in the unit of users, where no loop over pairs has made them. */
+BODY void tile_fill_pair(int dim, const tile_constants *k, const vec *v, tile_rows *rows, int n)
+{
+  const double inverse_h = k->fluid.inverse_h, scale = k->F_scale;
+  for (int q = 0; k->show & SPH_TILE_F && q < n; q++)
+    rows->F[q] = scale * kernel_shape_f_at(k->fluid.kernel, dim, v_sqrt(rows->r2[q]), inverse_h);
+  if (k->show & SPH_TILE_RV) tile_rv(dim, v, slot_v(dim), n, rows, rows->rv);
 }
 
 /* Row n: targets at x, and source j. */
@@ -266,33 +271,67 @@ BODY void tile_fields(const sph_tile_term *one, tile_rows *rows, sph_tile *tile)
   tile->ds = s < 0 ? NULL : (double *)rows->ds[s];
 }
 
-/* Forces along r, from rows that hold them; dissipative ones, with rv, heat.  All sums at once: one
- * alone would wait for itself. */
-BODY void tile_take_along(int dim, const tile_rows *rows, vec *along, const vec *rv, int n,
-                          vec *taken)
+/* One tile after another: its rows, what users see of them, and the sums of a block. */
+typedef struct tile_work {
+  vec i[SPH_TILE_SLOTS], v[3];   /* records of the targets; velocities */
+  vec taken[SPH_SUM_DRIFT];      /* of one tile */
+  vec more[1 + SPH_SCALARS_MAX]; /* density and scalars, of a block */
+  const double (*shift)[3];
+  sph_tile tile;
+  int image[SPH_TILE_ROWS];
+  tile_rows rows;
+} tile_work;
+
+static __attribute__((noinline, noclone, unused)) void tile_begin(int dim, const sph_pair_task *t,
+                                                                  tile_work *w)
 {
-  vec sum[3] = {v_set(0), v_set(0), v_set(0)}, work = v_set(0);
-  for (int q = 0; rv && q < n; q++) work += along[q] * rv[q];
-  for (int q = 0; q < n; q++) {
-    for (int d = 0; d < dim; d++) sum[d] += along[q] * rows->r[d][q];
-    along[q] = v_set(0);
-  }
-  for (int d = 0; d < dim; d++) taken[SPH_SUM_A + d] += sum[d];
-  taken[SPH_SUM_HEAT] -= 0.5 * work;
+  w->tile = tile_open(dim, t->constants, &w->rows);
+  w->shift = t->shift;
+  tile_clear(&w->rows);
 }
 
-BODY void tile_take_drag(int dim, tile_rows *rows, vec (*v)[SPH_TILE_ROWS], int heats, int n,
-                         vec *taken)
+static __attribute__((noinline, noclone, unused)) void
+tile_begin_block(int dim, const sph_pair_task *t, long b, tile_work *w)
 {
-  vec sum[3] = {v_set(0), v_set(0), v_set(0)}, work = v_set(0);
-  for (int q = 0; heats && q < n; q++)
-    for (int d = 0; d < dim; d++) work += rows->along_v[q] * v[d][q] * v[d][q];
-  for (int q = 0; q < n; q++) {
-    for (int d = 0; d < dim; d++) sum[d] += rows->along_v[q] * v[d][q];
+  const tile_constants *k = t->constants;
+  const double *record = t->target + b * SPH_LANES * t->target_stride;
+  for (int s = 0; s < tile_slots(dim); s++) w->i[s] = v_gather(record + s, t->target_stride);
+  for (int d = 0; d < dim; d++) w->v[d] = w->i[slot_v(dim) + d];
+  for (int s = 0; s <= k->scalars; s++)
+    w->more[s] = v_load(t->sum[SPH_SUM_DENSITY + s] + b * SPH_LANES);
+  tile_targets(dim, k, record, t->target_stride, &w->rows);
+}
+
+/* r of rows 0 .. n - 1. */
+BODY void tile_r(int dim, tile_work *w, int n)
+{
+  for (int q = 0; q < n; q++)
+    for (int d = 0; d < dim; d++)
+      w->rows.r[d][q] = w->i[d] - w->shift[w->image[q]][d] - w->rows.source[q][d];
+}
+
+/* Forces of one row, whose r and v are made again: cheaper than to keep them.  Dissipative ones
+ * heat with half of their work. */
+BODY void tile_force(int dim, unsigned adds, int heats, tile_rows *rows, int q, const vec *x,
+                     const vec *v_i, int slot, vec *a, vec *heat)
+{
+  const double *j = rows->source[q], *v_j = j + slot;
+  vec along_r = v_set(0), push = v_set(0), work = v_set(0);
+  if (adds & SPH_TILE_ALONG_R) along_r = rows->along_r[q], rows->along_r[q] = v_set(0);
+  if (adds & SPH_TILE_PUSH) push = rows->push[q], rows->push[q] = v_set(0);
+  for (int d = 0; d < dim; d++) a[d] += (push + along_r) * (x[d] - j[d]);
+  if (heats)
+    for (int d = 0; d < dim; d++) work += along_r * (x[d] - j[d]) * (v_i[d] - v_j[d]);
+  if (adds & SPH_TILE_ALONG_V) {
+    const vec along_v = rows->along_v[q];
     rows->along_v[q] = v_set(0);
+    for (int d = 0; d < dim; d++) {
+      const vec v = v_i[d] - v_j[d];
+      a[d] += along_v * v;
+      work += along_v * v * v;
+    }
   }
-  for (int d = 0; d < dim; d++) taken[SPH_SUM_A + d] += sum[d];
-  taken[SPH_SUM_HEAT] -= 0.5 * work;
+  if (heats) *heat -= 0.5 * work;
 }
 
 BODY vec tile_total(vec *row, int n)
@@ -305,94 +344,105 @@ BODY vec tile_total(vec *row, int n)
   return total;
 }
 
-/* The registered terms, each on rows 0 .. n - 1; what they added: to the fluid sums `taken`, to
- * density and scalars `more`. */
-static __attribute__((noinline, unused)) void tile_call(int dim, const tile_constants *k,
-                                                        sph_tile *tile, tile_rows *rows, int n,
-                                                        vec *taken, vec *more)
+/* What the terms added to rows 0 .. n - 1, in the unit of the fluid sums. */
+BODY void tile_sum(int dim, const tile_constants *k, tile_work *w, int n)
 {
-  const int no_slip = (k->fluid.terms & SPH_NO_SLIP) != 0;
-  const int heats = (k->fluid.terms & SPH_THERMAL) != 0;
-  const vec unit = v_set(1 / k->F_scale), *rv = no_slip ? rows->rv_viscous : rows->rv;
-  tile->n = (long)n * SPH_LANES;
-  for (int q = 0; q < k->terms; q++) {
-    tile_fields(&k->term[q], rows, tile);
-    k->term[q].term->pair(k->term[q].term, tile);
+  const unsigned adds = k->adds, forces = SPH_TILE_PUSH | SPH_TILE_ALONG_R | SPH_TILE_ALONG_V;
+  const int heats = (k->fluid.terms & SPH_THERMAL) != 0, scalars = k->scalars;
+  const int slot = k->fluid.terms & SPH_NO_SLIP ? slot_extra(dim) : slot_v(dim);
+  const vec unit = v_set(1 / k->F_scale), zero = v_set(0), v[3] = {w->v[0], w->v[1], w->v[2]};
+  vec a[3] = {zero, zero, zero}, x[3] = {zero, zero, zero}, heat = zero;
+  for (int q = 0, image = -1; adds & forces && q < n; q++) {
+    if (image != w->image[q]) {
+      image = w->image[q];
+      for (int d = 0; d < dim; d++) x[d] = w->i[d] - w->shift[image][d];
+    }
+    tile_force(dim, adds, heats, &w->rows, q, x, v, slot, a, &heat);
   }
-  for (int s = 0; s < SPH_SUM_DRIFT; s++) taken[s] = v_set(0);
-  if (k->adds & SPH_TILE_PUSH) tile_take_along(dim, rows, rows->push, NULL, n, taken);
-  if (k->adds & SPH_TILE_ALONG_R)
-    tile_take_along(dim, rows, rows->along_r, heats ? rv : NULL, n, taken);
-  if (k->adds & SPH_TILE_ALONG_V)
-    tile_take_drag(dim, rows, no_slip ? rows->v_viscous : rows->v, heats, n, taken);
-  if (k->adds & SPH_TILE_DU) taken[SPH_SUM_HEAT] += tile_total(rows->du, n);
-  if (k->adds & SPH_TILE_DRHO) more[0] += unit * tile_total(rows->drho, n);
-  for (int s = 0; s < k->scalars; s++) more[1 + s] += unit * tile_total(rows->ds[s], n);
+  if (adds & SPH_TILE_DU) heat += tile_total(w->rows.du, n);
+  if (adds & SPH_TILE_DRHO) w->more[0] += unit * tile_total(w->rows.drho, n);
+  for (int s = 0; s < scalars; s++) w->more[1 + s] += unit * tile_total(w->rows.ds[s], n);
+  for (int d = 0; d < dim; d++) w->taken[SPH_SUM_A + d] = unit * a[d];
+  w->taken[SPH_SUM_HEAT] = unit * heat;
 }
 
-/* One tile after another: its rows, what users see of them, and the sums of a block. */
-typedef struct tile_work {
-  vec v[3]; /* of the targets */
-  vec sum[SPH_SUM_DRIFT], more[1 + SPH_SCALARS_MAX];
-  sph_tile tile;
-  tile_rows rows;
-} tile_work;
+/* The registered terms on rows 0 .. n - 1, one after another, and their sums. */
+typedef void tile_taker(const tile_constants *k, tile_work *w, int n);
 
-/* Fills rows 0 .. n - 1, calls the terms, sums what they added, in the unit of the fluid sums. */
-static __attribute__((noinline, unused)) void
-tile_take(int dim, tile_kernel *kernel, const tile_constants *k, tile_work *w, int n)
+BODY void tile_take(int dim, const tile_constants *k, tile_work *w, int n)
 {
-  const vec unit = v_set(1 / k->F_scale);
-  vec taken[SPH_SUM_DRIFT];
-  tile_fill(dim, kernel, k, w->v, &w->rows, n);
-  tile_call(dim, k, &w->tile, &w->rows, n, taken, w->more);
-  for (int d = 0; d < dim; d++) w->sum[SPH_SUM_A + d] += unit * taken[SPH_SUM_A + d];
-  w->sum[SPH_SUM_HEAT] += unit * taken[SPH_SUM_HEAT];
+  if (k->show & SPH_TILE_R || k->fluid.terms & SPH_NO_SLIP) tile_r(dim, w, n);
+  tile_fill(dim, k, w->v, &w->rows, n);
+  w->tile.n = (long)n * SPH_LANES;
+  for (int q = 0; q < k->terms; q++) {
+    tile_fields(&k->term[q], &w->rows, &w->tile);
+    k->term[q].term->pair(k->term[q].term, &w->tile);
+  }
+  tile_sum(dim, k, w, n);
+}
+
+/* Row n: built-in terms act, and what they made of the pair is kept. */
+BODY void tile_pair(int dim, int kernel, unsigned fused, double F_scale, const fluid_constants *k,
+                    const vec *i, const double *source, tile_rows *rows, int n, vec *sum)
+{
+  vec j[SPH_TILE_SLOTS];
+#pragma GCC unroll 14
+  for (int s = 0; s < tile_slots(dim); s++) j[s] = v_set(source[s]);
+  const pair p = fluid_pair(dim, kernel, fused, k, i, j, sum);
+  rows->source[n] = source;
+  rows->r2[n] = p.r2;
+  rows->rv[n] = p.rv;
+  rows->F[n] = F_scale * p.F;
 }
 
 /* All pairs of one block; rows go on over the ends of runs. */
-BODY void tile_block(int dim, tile_kernel *kernel, const sph_pair_task *t, long b, tile_work *w)
+BODY void tile_block(int dim, int kernel, unsigned fused, tile_taker *take, const sph_pair_task *t,
+                     long b, tile_work *w)
 {
   const tile_constants *k = t->constants;
-  const double *record = t->target + b * SPH_LANES * t->target_stride;
-  vec home[3], x[3];
+  const fluid_constants fluid = k->fluid; /* a copy, which no store to rows can change */
+  const double F_scale = k->F_scale;
+  const long last = t->first[b + 1] - 1;
+  vec i[SPH_TILE_SLOTS], sum[SPH_SUM_DRIFT];
   int n = 0;
-  for (int d = 0; d < dim; d++) {
-    home[d] = v_gather(record + d, t->target_stride);
-    w->v[d] = v_gather(record + slot_v(dim) + d, t->target_stride);
-  }
-  tile_targets(dim, k, record, t->target_stride, &w->rows);
-  for (long r = t->first[b]; r < t->first[b + 1]; r++) {
+  tile_begin_block(dim, t, b, w);
+#pragma GCC unroll 14
+  for (int s = 0; s < tile_slots(dim); s++) i[s] = w->i[s];
+#pragma GCC unroll 6
+  for (int s = 0; s < SPH_SUM_DRIFT; s++) sum[s] = v_load(t->sum[s] + b * SPH_LANES);
+  for (long r = t->first[b]; r <= last; r++) {
     const sph_run run = t->runs[r];
+    const int image = sph_run_image(run);
     const double *source = t->source + sph_run_start(run) * t->source_stride;
-    for (int d = 0; d < dim; d++) x[d] = home[d] - t->shift[sph_run_image(run)][d];
-    pair_prefetch(source + sph_run_count(run) * t->source_stride, slot_extra(dim));
-    for (int q = 0; q < sph_run_count(run); q++, source += t->source_stride) {
-      tile_row(dim, x, source, &w->rows, n++);
-      if (n < SPH_TILE_ROWS) continue;
-      tile_take(dim, kernel, k, w, n);
+    const double *const end_of_run = source + sph_run_count(run) * t->source_stride;
+    for (int d = 0; d < dim; d++) i[d] = w->i[d] - t->shift[image][d];
+    pair_prefetch(end_of_run, slot_extra(dim));
+    do {
+      do {
+        w->image[n] = image;
+        tile_pair(dim, kernel, fused, F_scale, &fluid, i, source, &w->rows, n++, sum);
+        source += t->source_stride;
+      } while (source != end_of_run && n < SPH_TILE_ROWS);
+      if (n < SPH_TILE_ROWS && r < last) break;
+      take(k, w, n);
       n = 0;
-    }
+      for (int d = 0; d < dim; d++) sum[SPH_SUM_A + d] += w->taken[SPH_SUM_A + d];
+      sum[SPH_SUM_HEAT] += w->taken[SPH_SUM_HEAT];
+    } while (source != end_of_run);
   }
-  if (n > 0) tile_take(dim, kernel, k, w, n);
+#pragma GCC unroll 6
+  for (int s = 0; s < SPH_SUM_DRIFT; s++) v_store(t->sum[s] + b * SPH_LANES, sum[s]);
+  for (int s = 0; s <= k->scalars; s++)
+    v_store(t->sum[SPH_SUM_DENSITY + s] + b * SPH_LANES, w->more[s]);
 }
 
-BODY void tile_blocks(int dim, tile_kernel *kernel, const sph_pair_task *t, long begin, long end)
+BODY void tile_blocks(int dim, int kernel, unsigned fused, tile_taker *take, const sph_pair_task *t,
+                      long begin, long end)
 {
-  const tile_constants *k = t->constants;
   tile_work w;
-  w.tile = tile_open(dim, k, &w.rows);
-  tile_clear(&w.rows);
-  for (long b = begin; b < end; b++) {
-    if (t->first[b] == t->first[b + 1]) continue;
-    for (int s = 0; s < SPH_SUM_DRIFT; s++) w.sum[s] = v_load(t->sum[s] + b * SPH_LANES);
-    for (int s = 0; s <= k->scalars; s++)
-      w.more[s] = v_load(t->sum[SPH_SUM_DENSITY + s] + b * SPH_LANES);
-    tile_block(dim, kernel, t, b, &w);
-    for (int s = 0; s < SPH_SUM_DRIFT; s++) v_store(t->sum[s] + b * SPH_LANES, w.sum[s]);
-    for (int s = 0; s <= k->scalars; s++)
-      v_store(t->sum[SPH_SUM_DENSITY + s] + b * SPH_LANES, w.more[s]);
-  }
+  tile_begin(dim, t, &w);
+  for (long b = begin; b < end; b++)
+    if (t->first[b] < t->first[b + 1]) tile_block(dim, kernel, fused, take, t, b, &w);
 }
 
 #endif

@@ -213,6 +213,59 @@ static void every_width(void **state)
   scene_free(&s);
 }
 
+/* Built-in terms: 1 without viscosity, 2 Molteni's, 3 Antuono's, 0 none; with a term by tile. */
+static scene_rates rates_beside(scene *s, int set, int tile, const char *isa)
+{
+  sph_sim *sim = scene_sim(s, (scene_options){.isa = isa});
+  if (set) {
+    sph_sim_add_term(sim, sph_term_continuity());
+    sph_sim_add_term(sim, sph_term_pressure());
+    sph_sim_add_term(sim, sph_term_delta(set == 3 ? "antuono" : "molteni", delta));
+  }
+  if (set > 1) sph_sim_add_term(sim, sph_term_viscosity_artificial(alpha, 0));
+  if (tile)
+    sph_sim_add_term(sim, (sph_term){.name = "own",
+                                     .pair = morris,
+                                     .reads = "density m F",
+                                     .adds = "along_v",
+                                     .ctx = (void *)(size_t)&eta});
+  assert_string_equal(sph_sim_error(sim), "");
+  scene_rates r = scene_evaluate(s, sim);
+  sph_sim_free(sim);
+  return r;
+}
+
+static void add(double *to, const double *a, long n)
+{
+  for (long i = 0; i < n; i++) to[i] += a[i];
+}
+
+/* Rates of a set in the loop with tiles are those of the set and of the tile, each alone: every set
+ * that has a loop of its own, in every width. */
+static void beside_built_in(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 9 * SPH_ISA_COUNT; k++) {
+    const char *isa = sph_cpu_isa_name(k / 9);
+    if (sph_cpu_isa(isa, NULL) != k / 9) continue;
+    scene_def def = scene_number(k % 3, 0);
+    def.kernel = 0; /* Wendland C2 */
+    scene s;
+    scene_make(&s, &def);
+    scene_rates sum = rates_beside(&s, 1 + k % 9 / 3, 0, isa);
+    scene_rates own = rates_beside(&s, 0, 1, isa);
+    scene_rates together = rates_beside(&s, 1 + k % 9 / 3, 1, isa);
+    assert_true(largest(own.a[0], own.n) > 0 && largest(sum.drho, sum.n) > 0);
+    for (int d = 0; d < def.dim; d++) add(sum.a[d], own.a[d], sum.n);
+    add(sum.drho, own.drho, sum.n);
+    compare(&sum, &together, def.dim);
+    scene_rates_free(&sum);
+    scene_rates_free(&own);
+    scene_rates_free(&together);
+    scene_free(&s);
+  }
+}
+
 /* What is not named is not filled in, and changes nothing. */
 static void named_pairs(void **state)
 {
@@ -408,10 +461,11 @@ static void scalar_decays(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(equal_to_fused), cmocka_unit_test(every_width),
-      cmocka_unit_test(named_pairs),    cmocka_unit_test(the_rest_is_null),
-      cmocka_unit_test(any_threads),    cmocka_unit_test(dust_is_left_alone),
-      cmocka_unit_test(scalar_rates),   cmocka_unit_test(scalar_decays),
+      cmocka_unit_test(equal_to_fused),     cmocka_unit_test(beside_built_in),
+      cmocka_unit_test(every_width),        cmocka_unit_test(named_pairs),
+      cmocka_unit_test(the_rest_is_null),   cmocka_unit_test(any_threads),
+      cmocka_unit_test(dust_is_left_alone), cmocka_unit_test(scalar_rates),
+      cmocka_unit_test(scalar_decays),
   };
   return cmocka_run_group_tests_name("tiles", tests, NULL, NULL);
 }
