@@ -18,7 +18,8 @@ sph_sim *bench_flow_make(const bench_flow *s, double skin, int threads)
                      .kernel = s->kernel,
                      .h_over_dx = s->support / sph_kernel_support(kernel),
                      .skin = skin,
-                     .threads = threads};
+                     .threads = threads,
+                     .precision = s->precision};
   double lo[3] = {0, 0, 0}, hi[3] = {1, 1, 1};
   for (int d = 0; d < s->dim; d++) {
     def.periodic[d] = 1;

@@ -10,6 +10,7 @@ typedef struct bench_flow {
   int thermal;
   const char *delta; /* NULL: none */
   double support;    /* [dx] */
+  const char *precision; /* NULL: double */
 } bench_flow;
 
 /* A jittered, unaligned, periodic lattice with a smooth flow: nothing is aligned with the cells of

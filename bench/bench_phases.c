@@ -180,7 +180,7 @@ static void measure_vectors(sph_sim *sim)
 
 static sph_sim *flow(const char *delta, long across)
 {
-  const bench_flow f = {"", "wendland-c2", 3, across, 0, delta, 3};
+  const bench_flow f = {"", "wendland-c2", 3, across, 0, delta, 3, NULL};
   return bench_flow_make(&f, -1, 1);
 }
 

@@ -118,9 +118,9 @@ void bench_threads(void)
 {
   if (!bench_filtered()) return; /* it needs idle processors */
   const long a3 = bench_quick() ? 20 : 46, a2 = bench_quick() ? 100 : 316;
-  const bench_flow rhs[] = {{"", "wendland-c2", 3, a3, 0, "molteni", 3},
-                            {"", "wendland-c2", 3, a3, 0, "antuono", 3},
-                            {"", "wendland-c2", 2, a2, 0, "antuono", 3}};
+  const bench_flow rhs[] = {{"", "wendland-c2", 3, a3, 0, "molteni", 3, NULL},
+                            {"", "wendland-c2", 3, a3, 0, "antuono", 3, NULL},
+                            {"", "wendland-c2", 2, a2, 0, "antuono", 3, NULL}};
   const flow flows[] = {{"3d/molteni", &rhs[0]},
                         {"3d/antuono", &rhs[1]},
                         {"2d/antuono", &rhs[2]},

@@ -58,8 +58,8 @@ BODY vec kernel_wendland_c2_f(int dim, vec q)
 /* f for loops: its factor and that of r go into constants: s = -5^(1/3) t, f = s^3 in 2D, 3D. */
 BODY vec kernel_wendland_c2_f_at(int dim, vec r, vec_scalar inverse_h)
 {
-  const double root = 1.709975946676697; /* 5^(1/3) */
-  vec s = v_min0(r * (0.5 * root * inverse_h) - root);
+  const vec_scalar root = (vec_scalar)1.709975946676697; /* 5^(1/3) */
+  vec s = v_min0(r * (root * inverse_h / 2) - root);
   return dim == 1 ? kernel_wendland_c2_f(dim, r * inverse_h) : s * s * s;
 }
 BODY vec kernel_wendland_c2_laplacian(int dim, vec q)
@@ -76,21 +76,21 @@ BODY vec kernel_wendland_c4_w(int dim, vec q)
   q = v_min(q, v_set(2));
   vec t = 1 - 0.5 * q, t2 = t * t;
   if (dim == 1) return t2 * t2 * t * (1 + (2.5 + 2 * q) * q);
-  return t2 * t2 * t2 * (1 + (3 + 35.0 / 12 * q) * q);
+  return t2 * t2 * t2 * (1 + (3 + (vec_scalar)(35.0 / 12) * q) * q);
 }
 BODY vec kernel_wendland_c4_f(int dim, vec q)
 {
   q = v_min(q, v_set(2));
   vec t = 1 - 0.5 * q, t2 = t * t;
-  if (dim == 1) return t2 * t2 * (-3.5 - 7 * q);
-  return t2 * t2 * t * (-14.0 / 3 - 35.0 / 3 * q);
+  if (dim == 1) return t2 * t2 * -(3.5 + 7 * q);
+  return t2 * t2 * t * -((vec_scalar)(14.0 / 3) + (vec_scalar)(35.0 / 3) * q);
 }
 BODY vec kernel_wendland_c4_laplacian(int dim, vec q)
 {
   q = v_min(q, v_set(2));
   vec t = 1 - 0.5 * q, t3 = t * t * t;
   if (dim == 1) return 1.75 * t3 * ((12 * q - 3) * q - 2);
-  return dim == 2 ? 28.0 / 3 * t3 * t * ((5 * q - 2) * q - 1)
+  return dim == 2 ? (vec_scalar)(28.0 / 3) * t3 * t * ((5 * q - 2) * q - 1)
                   : 3.5 * t3 * t * ((15 * q - 8) * q - 4);
 }
 
@@ -107,8 +107,8 @@ BODY vec kernel_wendland_c6_f(int dim, vec q)
 {
   q = v_min(q, v_set(2));
   vec t = 1 - 0.5 * q, t2 = t * t, t4 = t2 * t2;
-  if (dim == 1) return t4 * t2 * (-4.5 - (13.5 + 13.125 * q) * q);
-  return t4 * t2 * t * (-5.5 - (19.25 + 22 * q) * q);
+  if (dim == 1) return t4 * t2 * -(4.5 + (13.5 + 13.125 * q) * q);
+  return t4 * t2 * t * -(5.5 + (19.25 + 22 * q) * q);
 }
 BODY vec kernel_wendland_c6_laplacian(int dim, vec q)
 {
@@ -131,12 +131,12 @@ BODY vec kernel_cubic_spline_f(int dim, vec q)
 {
   (void)dim;
   vec s = v_max0(2 - q), u = v_max0(1 - q);
-  return -0.75 * (s * s / v_max(q, v_set(1)) + q * u);
+  return -(vec_scalar)0.75 * (s * s / v_max(q, v_set(1)) + q * u);
 }
 BODY vec kernel_cubic_spline_laplacian(int dim, vec q)
 {
   vec s = v_max0(2 - q), u = v_max0(1 - q);
-  return 1.5 * s - 6 * u + (dim - 1) * kernel_cubic_spline_f(dim, q);
+  return 1.5 * s - 6 * u + (vec_scalar)(dim - 1) * kernel_cubic_spline_f(dim, q);
 }
 
 /* Quintic B-spline M6 (Morris 1996), s = (3 - q)+, t = (2 - q)+, u = (1 - q)+, kappa = 3:
@@ -162,7 +162,7 @@ BODY vec kernel_quintic_spline_laplacian(int dim, vec q)
 {
   vec s = v_max0(3 - q), t = v_max0(2 - q), u = v_max0(1 - q);
   return 20 * (s * s * s) - 120 * (t * t * t) + 300 * (u * u * u) +
-         (dim - 1) * kernel_quintic_spline_f(dim, q);
+         (vec_scalar)(dim - 1) * kernel_quintic_spline_f(dim, q);
 }
 
 /* exp(-q^2), 0 <= q <= 3, within 1e-14 of itself: (exp(-q^2/16))^16, the inner one by a polynomial
@@ -171,10 +171,11 @@ BODY vec kernel_quintic_spline_laplacian(int dim, vec q)
  * rounding adds. */
 BODY vec kernel_exp(vec q)
 {
-  static const double c[] = {-0.0624999999999997,   0.0019531249999983856,  -4.069010416364146e-05,
-                             6.357828747946291e-07, -7.947284469057803e-09, 8.278373201656546e-11,
-                             -7.39039479690877e-13, 5.760171434960874e-15,  -3.887035525677299e-17,
-                             1.8977527031337512e-19};
+  static const vec_scalar c[] = {-0.0624999999999997,    0.0019531249999983856,
+                                 -4.069010416364146e-05, 6.357828747946291e-07,
+                                 -7.947284469057803e-09, 8.278373201656546e-11,
+                                 -7.39039479690877e-13,  5.760171434960874e-15,
+                                 -3.887035525677299e-17, 1.8977527031337512e-19};
   vec x = q * q, e = v_set(c[9]);
 #pragma GCC unroll 9
   for (int k = 8; k >= 0; k--) e = e * x + c[k];
@@ -193,13 +194,13 @@ BODY vec kernel_gaussian_f(int dim, vec q) { return -2 * kernel_gaussian_w(dim, 
 BODY vec kernel_gaussian_laplacian(int dim, vec q)
 {
   vec near = v_min(q, v_set(3));
-  return (4 * near * near - 2 * dim) * kernel_gaussian_w(dim, q);
+  return (4 * near * near - (vec_scalar)(2 * dim)) * kernel_gaussian_w(dim, q);
 }
 
 /* The same lowered to w(3) = 0: w = exp(-q^2) - exp(-9), continuous; w' is that of the Gaussian. */
 BODY vec kernel_gaussian_shifted_w(int dim, vec q)
 {
-  return v_max0(kernel_gaussian_w(dim, q) - 1.2340980408667956e-4);
+  return v_max0(kernel_gaussian_w(dim, q) - (vec_scalar)1.2340980408667956e-4);
 }
 BODY vec kernel_gaussian_shifted_f(int dim, vec q) { return kernel_gaussian_f(dim, q); }
 BODY vec kernel_gaussian_shifted_laplacian(int dim, vec q)
@@ -219,11 +220,11 @@ BODY vec kernel_spiky_f(int dim, vec q)
 {
   (void)dim;
   vec s = v_max0(2 - q);
-  return -3 * s * s / v_max(q, v_set(1e-100));
+  return -3 * s * s / v_max(q, v_tiny());
 }
 BODY vec kernel_spiky_laplacian(int dim, vec q)
 {
-  return 6 * v_max0(2 - q) + (dim - 1) * kernel_spiky_f(dim, q);
+  return 6 * v_max0(2 - q) + (vec_scalar)(dim - 1) * kernel_spiky_f(dim, q);
 }
 
 #define SPH_KERNEL_W(number, shape) \

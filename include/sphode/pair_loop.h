@@ -35,7 +35,11 @@ typedef struct sph_pair_task {
   const sph_run *runs;      /* [first[blocks]] */
   const double (*shift)[3]; /* of the images [m] */
   double *const *sum;       /* [sums][blocks * lanes], added to, sorted order */
-  const void *constants;    /* what the body needs besides */
+  /* Of the library's mixed precision; NULL, NULL, 0 else: the same records as floats, but positions
+   * as 32-bit integers, in quanta [m]. */
+  const float *target_single, *source_single;
+  double quantum;
+  const void *constants; /* what the body needs besides */
 } sph_pair_task;
 
 typedef void sph_pair_function(const sph_pair_task *task, long begin, long end); /* blocks */
@@ -51,6 +55,16 @@ BODY void pair_prefetch(const double *behind, int slots)
   for (int line = 0; line <= SPH_LANES * slots / 8; line++) __builtin_prefetch(behind + 8 * line);
 }
 
+/* Slots of the records of a block, a vector each.  Called once a block; inlined, it would be half of
+ * the code of a loop. */
+static __attribute__((noinline, unused)) void pair_gather(const vec_number *record, long stride,
+                                                          int slots, vec_number (*slot)[SPH_LANES])
+{
+  for (int s = 0; s < slots; s++)
+    for (int l = 0; l < SPH_LANES; l++) slot[s][l] = record[l * stride + s];
+}
+
+#ifndef SPH_VEC_FLOAT
 BODY void sph_pair_loop(sph_pair_body *body, const sph_pair_task *t, long begin, long end, int dim,
                         int slots, int sums)
 {
@@ -58,8 +72,10 @@ BODY void sph_pair_loop(sph_pair_body *body, const sph_pair_task *t, long begin,
     if (t->first[b] == t->first[b + 1]) continue;
     vec home[SPH_PAIR_SLOTS], sum[SPH_PAIR_SUMS];
     const double *record = t->target + b * SPH_LANES * t->target_stride;
+    double slot[SPH_PAIR_SLOTS][SPH_LANES];
+    pair_gather(record, t->target_stride, slots, slot);
 #pragma GCC unroll 26
-    for (int s = 0; s < slots; s++) home[s] = v_gather(record + s, t->target_stride);
+    for (int s = 0; s < slots; s++) home[s] = v_load(slot[s]);
 #pragma GCC unroll 18
     for (int s = 0; s < sums; s++) sum[s] = v_load(t->sum[s] + b * SPH_LANES);
     long r = t->first[b];
@@ -83,5 +99,6 @@ BODY void sph_pair_loop(sph_pair_body *body, const sph_pair_task *t, long begin,
     for (int s = 0; s < sums; s++) v_store(t->sum[s] + b * SPH_LANES, sum[s]);
   }
 }
+#endif
 
 #endif

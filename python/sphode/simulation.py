@@ -16,7 +16,7 @@ class Simulation:
     """A simulation: sph_sim of sphode/sim.h.
 
     Keywords are the members of sph_sim_def: dim, dx (needed), kernel, h_over_dx, threads, periodic,
-    origin, length, speed, skin, search, isa.  The first failure raises Error at once, and every use
+    origin, length, speed, skin, search, isa, precision.  The first failure raises Error at once, and every use
     after it raises it again: right is a new one.
     """
 

@@ -70,6 +70,18 @@ int sph_cpu_isa(const char *name, sph_error *error)
   return -1;
 }
 
+int sph_cpu_isa_mixed(int isa, sph_error *error)
+{
+  if (isa == SPH_ISA_x86_64_v3) return SPH_ISA_x86_64_v3_mixed;
+  if (isa == SPH_ISA_x86_64_v4 || isa == SPH_ISA_x86_64_v4_newton) return SPH_ISA_x86_64_v4_mixed;
+  sph_error_set(
+      error, SPH_ERR_ARGUMENT,
+      "mixed precision needs a processor and a build with AVX2 (x86-64-v3), these loops are "
+      "%s: leave precision at double",
+      sph_cpu_isa_name(isa));
+  return -1;
+}
+
 const char *sph_cpu_isa_name(int isa)
 {
   return isa >= 0 && isa < SPH_ISA_COUNT ? isas[isa].name : "";

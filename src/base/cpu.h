@@ -4,14 +4,17 @@
 #include "config.h"
 #include "sphode/base.h"
 
-/* Suffix of the exported tables, name for people, lanes; slow to fast. */
+/* Suffix of the exported tables, name for people, lanes; slow to fast, then those of mixed
+ * precision. */
 #define SPH_ISA_LIST(X)                      \
   X(reference, "reference", 1)               \
   X(generic, "generic", 2)                   \
   X(x86_64_v2, "x86-64-v2", 2)               \
   X(x86_64_v3, "x86-64-v3", 4)               \
   X(x86_64_v4_newton, "x86-64-v4-newton", 8) \
-  X(x86_64_v4, "x86-64-v4", 8)
+  X(x86_64_v4, "x86-64-v4", 8)               \
+  X(x86_64_v3_mixed, "x86-64-v3, mixed", 8)  \
+  X(x86_64_v4_mixed, "x86-64-v4, mixed", 8)
 
 enum sph_isa {
 #define SPH_ISA_ENUM(suffix, name, lanes) SPH_ISA_##suffix,
@@ -21,8 +24,12 @@ enum sph_isa {
 };
 
 /* Those built into this library: X(suffix, suffix of the tables that it takes).  Two lanes once:
- * processors without x86-64-v2, which are from before 2009, take the reference.  Roots by Newton's
- * steps (simd.h) have fused loops of their own, where they are worth it, and are x86-64-v4 else. */
+ * processors without x86-64-v2, which are from before 2009, take the reference.
+ *
+ *   SPH_ISA_BUILT        loops of doubles, for all that is simulated
+ *   SPH_ISA_BUILT_LISTS  those that look at positions alone: of mixed precision, too
+ *   SPH_ISA_BUILT_FUSED  those that most time goes to: roots by Newton's steps (simd.h) have their
+ *                        own, mixed precision has floats (single_loop.h) */
 #ifdef SPH_HAVE_X86_64_V2
 #define SPH_ISA_TWO_LANES "x86-64-v2"
 #define SPH_ISA_BUILT_TWO(X) X(x86_64_v2, x86_64_v2)
@@ -32,18 +39,26 @@ enum sph_isa {
 #endif
 #ifdef SPH_HAVE_X86_64_V3
 #define SPH_ISA_BUILT_V3(X) X(x86_64_v3, x86_64_v3)
+#define SPH_ISA_BUILT_V3_MIXED(X, loops) X(x86_64_v3_mixed, loops)
 #else
 #define SPH_ISA_BUILT_V3(X)
+#define SPH_ISA_BUILT_V3_MIXED(X, loops)
 #endif
 #ifdef SPH_HAVE_X86_64_V4
 #define SPH_ISA_BUILT_V4(X, newton) X(x86_64_v4, x86_64_v4) X(x86_64_v4_newton, newton)
+#define SPH_ISA_BUILT_V4_MIXED(X, loops) X(x86_64_v4_mixed, loops)
 #else
 #define SPH_ISA_BUILT_V4(X, newton)
+#define SPH_ISA_BUILT_V4_MIXED(X, loops)
 #endif
-#define SPH_ISA_BUILT_WITH(X, newton) \
+#define SPH_ISA_BUILT_DOUBLE(X, newton) \
   X(reference, reference) SPH_ISA_BUILT_TWO(X) SPH_ISA_BUILT_V3(X) SPH_ISA_BUILT_V4(X, newton)
-#define SPH_ISA_BUILT(X) SPH_ISA_BUILT_WITH(X, x86_64_v4)
-#define SPH_ISA_BUILT_FUSED(X) SPH_ISA_BUILT_WITH(X, x86_64_v4_newton)
+#define SPH_ISA_BUILT(X) SPH_ISA_BUILT_DOUBLE(X, x86_64_v4) SPH_ISA_BUILT_V4_MIXED(X, x86_64_v4)
+#define SPH_ISA_BUILT_LISTS(X) SPH_ISA_BUILT(X) SPH_ISA_BUILT_V3_MIXED(X, x86_64_v3_mixed)
+#define SPH_ISA_BUILT_FUSED(X)                \
+  SPH_ISA_BUILT_DOUBLE(X, x86_64_v4_newton)   \
+  SPH_ISA_BUILT_V4_MIXED(X, x86_64_v4_single) \
+  SPH_ISA_BUILT_V3_MIXED(X, x86_64_v3_single)
 
 /* In a *_loops.c, compiled once per instruction set with SPH_ISA its suffix: the name of its
  * table. */
@@ -55,6 +70,8 @@ enum sph_isa {
  * this processor.  Unknown, not built or not run by this processor: -1, recorded with the names
  * that work. */
 int sph_cpu_isa(const char *name, sph_error *error);
+/* That of mixed precision beside isa; -1, recorded, where it has none. */
+int sph_cpu_isa_mixed(int isa, sph_error *error);
 const char *sph_cpu_isa_name(int isa);
 int sph_cpu_lanes(int isa);
 

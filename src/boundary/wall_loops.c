@@ -1,28 +1,48 @@
-/* Instances of the wall <- fluid loop, once per instruction set. */
+/* Instances of the wall <- fluid loop, once per instruction set.  Walls that turn are rare: theirs
+ * read the kernel at run time, as all of the reference do. */
 #include "wall_loops.h"
 
-#define WALL(kernel, dim, thermal, turns, name)                                              \
-  BODY void body_##kernel##_##dim##_##name(int d, const void *k, const vec *i, const vec *j, \
-                                           vec *sum)                                         \
-  {                                                                                          \
-    wall_pair(d, kernel, thermal, turns, k, i, j, sum);                                      \
-  }                                                                                          \
-  static void wall_##kernel##_##dim##_##name(const sph_pair_task *t, long b, long e)         \
-  {                                                                                          \
-    sph_pair_loop(body_##kernel##_##dim##_##name, t, b, e, dim, 3 * dim + 7, SPH_WALL_SUMS); \
-  }
-#define WALLS(kernel, dim)         \
-  WALL(kernel, dim, 0, 0, 0)       \
-  WALL(kernel, dim, 1, 0, 1)       \
-  WALL(kernel, dim, 0, 1, 0_turns) \
-  WALL(kernel, dim, 1, 1, 1_turns)
-#define KERNEL(kernel) WALLS(kernel, 1) WALLS(kernel, 2) WALLS(kernel, 3)
-SPH_KERNEL_LIST(KERNEL)
+#include "single_loop.h"
 
-#define PAIRS(kernel, dim)                                                  \
-  {                                                                         \
-    {wall_##kernel##_##dim##_0, wall_##kernel##_##dim##_1},                 \
-        {wall_##kernel##_##dim##_0_turns, wall_##kernel##_##dim##_1_turns}, \
+#define WALL(name, kernel, dim, turns, thermal)                                             \
+  BODY void name##_body(int d, const void *constants, const vec *i, const vec *j, vec *sum) \
+  {                                                                                         \
+    const fluid_constants *k = constants;                                                   \
+    wall_pair(d, kernel, thermal, turns, k, i, j, sum);                                     \
+  }                                                                                         \
+  static void name(const sph_pair_task *t, long b, long e)                                  \
+  {                                                                                         \
+    fluid_task_single own;                                                                  \
+    sph_pair_loop(name##_body, fluid_task(t, &own), b, e, dim, 3 * dim + 7,                 \
+                  thermal ? SPH_WALL_SUMS : SPH_WALL_SUMS_COLD);                            \
   }
-#define ROW(kernel) [kernel] = {PAIRS(kernel, 1), PAIRS(kernel, 2), PAIRS(kernel, 3)},
-const sph_wall_table SPH_ISA_NAME(sph_wall_loops) = {{SPH_KERNEL_LIST(ROW)}};
+
+#define TURNING(dim)                                 \
+  WALL(wall_turning_##dim##_0, k->kernel, dim, 1, 0) \
+  WALL(wall_turning_##dim##_1, k->kernel, dim, 1, 1)
+TURNING(1)
+TURNING(2)
+TURNING(3)
+
+#if SPH_LANES == 1
+#define RESTING(dim)                         \
+  WALL(wall_##dim##_0, k->kernel, dim, 0, 0) \
+  WALL(wall_##dim##_1, k->kernel, dim, 0, 1)
+    RESTING(1) RESTING(2) RESTING(3)
+#define NAME(kernel, dim, thermal) wall_##dim##_##thermal
+#else
+#define RESTING(kernel, dim)                         \
+  WALL(wall_##kernel##_##dim##_0, kernel, dim, 0, 0) \
+  WALL(wall_##kernel##_##dim##_1, kernel, dim, 0, 1)
+#define KERNEL(kernel) RESTING(kernel, 1) RESTING(kernel, 2) RESTING(kernel, 3)
+    SPH_KERNEL_LIST(KERNEL)
+#define NAME(kernel, dim, thermal) wall_##kernel##_##dim##_##thermal
+#endif
+
+#define NAMES(kernel, dim)                                \
+  {                                                       \
+    {NAME(kernel, dim, 0), NAME(kernel, dim, 1)},         \
+        {wall_turning_##dim##_0, wall_turning_##dim##_1}, \
+  }
+#define ROW(kernel) [kernel] = {NAMES(kernel, 1), NAMES(kernel, 2), NAMES(kernel, 3)},
+        const sph_wall_table SPH_ISA_NAME(sph_wall_loops) = {{SPH_KERNEL_LIST(ROW)}};

@@ -17,6 +17,7 @@ enum {
   SPH_WALL_P = 1,
   SPH_WALL_RHO_R = 2,
   SPH_WALL_V = 5,
+  SPH_WALL_SUMS_COLD = 8, /* without energies */
   SPH_WALL_U = 8,
   SPH_WALL_T = 9,
   SPH_WALL_SUMS = 10

@@ -510,6 +510,7 @@ static sph_sim_def sim_def(const sph_case *c, int threads)
       .kernel = get_text(kernel, "name", NULL),
       .h_over_dx = get_number(kernel, "h_over_dx", 0),
       .search = get_text(c->root, "search", NULL),
+      .precision = get_text(child_of(c->root, "run"), "precision", NULL),
       .threads = threads > 0 ? threads : (int)get_number(child_of(c->root, "run"), "threads", 1),
       .speed = get_number(c->root, "speed", 0),
   };

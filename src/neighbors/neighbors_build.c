@@ -7,7 +7,7 @@
 enum { PARALLEL_MIN = 256 }; /* blocks */
 
 #define DECLARE(isa, loops) extern const sph_neighbors_table sph_neighbors_loops_##loops;
-SPH_ISA_BUILT(DECLARE)
+SPH_ISA_BUILT_LISTS(DECLARE)
 
 /* The fastest instance of that many lanes that this processor runs; else the reference, which
  * takes any number. */
@@ -18,7 +18,7 @@ static sph_neighbors_lister *lister_of(int lanes)
   if (sph_cpu_lanes(SPH_ISA_##isa) == lanes &&                 \
       sph_cpu_isa(sph_cpu_isa_name(SPH_ISA_##isa), NULL) >= 0) \
     list = sph_neighbors_loops_##loops.list;
-  SPH_ISA_BUILT(MATCH)
+  SPH_ISA_BUILT_LISTS(MATCH)
 #undef MATCH
   return list;
 }

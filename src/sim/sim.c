@@ -95,6 +95,11 @@ static void set_box(sph_sim *sim, const sph_sim_def *def)
 static void set_search(sph_sim *sim, const sph_sim_def *def)
 {
   sim->isa = sph_cpu_isa(def->isa, &sim->error);
+  sim->single = def->precision && !strcmp(def->precision, "mixed");
+  if (def->precision && !sim->single && strcmp(def->precision, "double"))
+    sph_error_set(&sim->error, SPH_ERR_ARGUMENT, "precision \"%.60s\"; known: double, mixed",
+                  def->precision);
+  if (sim->single && sim->isa >= 0) sim->isa = sph_cpu_isa_mixed(sim->isa, &sim->error);
   sph_neighbors_search_check(def->search, def->own_search, &sim->error);
   sim->uses_own_search = !def->search && def->own_search;
   const char *name = sim->uses_own_search ? def->own_search->name : def->search;

@@ -53,6 +53,7 @@ typedef struct sph_sorted {
   long room;                  /* particles: a multiple of 8 */
   long stride;                /* doubles in a record */
   double *record;             /* [room * stride + SPH_PAIR_SLOTS] */
+  float *single;              /* the same in single precision (sim_single.c), or NULL */
   double *sum[SPH_PAIR_SUMS]; /* [room]; NULL for those that no loop makes */
   double *phi;                /* of the row phi, not sorted, [room]; NULL: another row */
   double *built[3];           /* positions at the last list build, not sorted, [capacity] */
@@ -133,6 +134,7 @@ struct sph_sim {
   /* Fixed when created. */
   int dim, threads, isa, kernel_number, periodic[3];
   const sph_kernel *kernel;
+  int single; /* of mixed precision: isa is one of those, records have copies in floats */
   int uses_own_search;
   char search[SPH_METHOD_MAX];                        /* or the name of the user's own */
   sph_search own_search;                              /* the user's */
@@ -175,6 +177,7 @@ struct sph_sim {
   sph_part part[SPH_PARTS];
   struct sph_implicit *implicit; /* solves stages of the implicit part; NULL without one */
   fluid_constants constants;     /* of no interaction: for walls and gradients */
+  double quantum, centre[3];     /* of positions in single precision [m] (sim_single.c) */
   long surface;                  /* fluid particles at a free surface, in the last evaluation
                                              of what shifts */
   double F_scale, W_scale;       /* sigma/h^(d+2), sigma/h^d */

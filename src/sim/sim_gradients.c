@@ -10,6 +10,7 @@
 #include "gradient_loops.h"
 #include "sim_mirror.h"
 #include "sim_rhs.h"
+#include "sim_single.h"
 
 static const double LEAST_EIGENVALUE = 0.4, LEAST_CORRECTED = 0.2;
 
@@ -161,6 +162,9 @@ static void prepare_share(void *ctx, const sph_share *share)
   const long first = share->begin * sph_cpu_lanes(sim->isa);
   add_sums(sim, share, k->g, 1);
   if (k->e->part->rates & SPH_ANTUONO) finish_share(sim, k->g, share, first);
+  if (sim->single)
+    sph_sim_single_copy(sim, k->g, slot_extra(sim->dim), slot_extra(sim->dim) + sim->dim, first,
+                        first + sph_sim_pairs_targets(sim, k->g, share));
   if (!(k->e->part->terms & SPH_CORRECTED)) return;
   add_sums(sim, share, k->g, 0);
   for (long s = 0; s < sph_sim_pairs_targets(sim, k->g, share); s++)

@@ -5,6 +5,7 @@
 #include "keep.h"
 #include "neighbors_sort.h"
 #include "sim_mirror.h"
+#include "sim_single.h"
 
 enum { PARALLEL_MIN = 4096, COUNTED = 16 }; /* builds of which one's pairs are counted */
 
@@ -73,6 +74,7 @@ static int build(sph_sim *sim)
                        (const double *const[]){x[0], x[1], x[2]}, &error);
   }
   if (!error.status) sph_sim_mirror_find(sim);
+  if (!error.status && (status = sph_sim_single_range(sim))) return status;
   for (int g = 0; !error.status && g < sim->groups; g++)
     for (int s = 0; !error.status && s < sim->groups; s++)
       if (sph_sim_interaction_listed(sim, sim->group[g], sim->group[s]))

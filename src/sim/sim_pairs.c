@@ -7,6 +7,7 @@
 #include "neighbors_sort.h"
 #include "sim_energy.h"
 #include "sim_rhs.h"
+#include "sim_single.h"
 #include "tile_pair.h"
 #include "wall_pair.h"
 
@@ -142,6 +143,7 @@ void sph_sim_pairs_pack(sph_evaluation *e, int walls)
 #pragma omp parallel for num_threads(sim->threads) schedule(static) if (n > PARALLEL_MIN)
     for (long s = 0; s < n; s += PACKED) pack_range(&k, s, s + PACKED < n ? s + PACKED : n);
     pack_tail(&sim->sorted[g], n);
+    if (sim->single) sph_sim_single_pack(sim, g);
   }
 }
 
@@ -191,6 +193,9 @@ void sph_sim_pairs_loop_records(sph_sim *sim, sph_pair_function *loop, int targe
                               .runs = list.runs,
                               .shift = sph_neighbors_shifts(sim->neighbors, NULL),
                               .sum = sim->sorted[target].sum,
+                              .target_single = to->single,
+                              .source_single = from->single,
+                              .quantum = sim->quantum,
                               .constants = constants};
   long chunks = (list.blocks + BLOCKS - 1) / BLOCKS;
 #pragma omp parallel for num_threads(sim->threads) schedule(dynamic) if (chunks > 2)
@@ -236,6 +241,9 @@ void sph_sim_pairs_loop_share(const sph_sim *sim, const sph_share *share, sph_pa
                               .runs = list.runs,
                               .shift = sph_neighbors_shifts(sim->neighbors, NULL),
                               .sum = share->sum,
+                              .target_single = to->single ? to->single + first * to->stride : NULL,
+                              .source_single = from->single,
+                              .quantum = sim->quantum,
                               .constants = constants};
   if (list.blocks) loop(&task, 0, share->end - share->begin);
 }

@@ -21,6 +21,7 @@
 #include "sim_parts.h"
 #include "sim_relax.h"
 #include "sim_rhs.h"
+#include "sim_single.h"
 #include "sim_tangent.h"
 #include "sim_weights.h"
 #include "sundials.h"
@@ -298,7 +299,7 @@ static int make_terms(sph_sim *sim)
   if (terms->drag_K == 0 && terms->drag_rate == 0) bits &= ~(unsigned)SPH_DRAG;
   bits = (bits & ~(unsigned)SPH_CORRECTED) | fluid_corrections(bits);
   sim->loop_terms = bits;
-  sim->constants = (fluid_constants){.terms = bits};
+  sim->constants = (fluid_constants){.terms = bits, .kernel = sim->kernel_number};
   sph_sim_prepare_h(sim);
   sim->needs_temperature = (bits & SPH_CONDUCTION) || sph_sim_implicit_heats(sim);
   int status = sph_sim_parts_make(sim);
@@ -369,6 +370,10 @@ int sph_sim_prepare_room(sph_sim *sim, int g)
   int status =
       sph_memory_grow((void **)&sorted->record, 0, room * (size_t)sorted->stride + SPH_PAIR_SLOTS,
                       sizeof(double), "records", &sim->error);
+  if (!status && sorted->single)
+    status =
+        sph_memory_grow((void **)&sorted->single, 0, room * (size_t)sorted->stride + SPH_PAIR_SLOTS,
+                        sizeof(float), "records in single precision", &sim->error);
   for (int d = 0; !status && d < sim->dim; d++)
     status = sph_memory_grow((void **)&sorted->built[d], old, room, sizeof(double),
                              "positions of the lists", &sim->error);
@@ -401,6 +406,9 @@ static int make_sorted(sph_sim *sim, int g)
   sorted->room = (sim->group[g]->n + 7) / 8 * 8; /* whole blocks: what is beyond costs time, too */
   sorted->record =
       SPH_NEW(double, sorted->room * sorted->stride + SPH_PAIR_SLOTS, "records", &sim->error);
+  if (sim->single)
+    sorted->single = SPH_NEW(float, sorted->room * sorted->stride + SPH_PAIR_SLOTS,
+                             "records in single precision", &sim->error);
   for (int s = 0; s < sums_of(sim, sim->group[g]); s++)
     sorted->sum[s] = SPH_NEW(double, sorted->room, "pair sums", &sim->error);
   for (int d = 0; d < sim->dim; d++)
@@ -595,6 +603,7 @@ int sph_sim_prepare(sph_sim *sim)
   if (!status) status = sph_sim_reset_check(sim);
   if (!status) status = sph_sim_implicit_check(sim);
   if (!status) status = make_terms(sim);
+  if (!status) status = sph_sim_single_check(sim);
   if (!status) status = start_walls(sim);
   if (!status) status = sph_sim_mirror_check(sim);
   if (!status) status = start_groups(sim);
@@ -615,6 +624,8 @@ int sph_sim_prepare(sph_sim *sim)
   if (!status) status = make_rates_anew(sim);
   if (!status) sph_sim_weights_scales(sim);
   if (!status) status = sph_sim_implicit_make(sim);
+  if (!status && sim->implicit)
+    status = sph_sim_single_refuse(sim, "implicit stages are solved in double precision alone");
   if (!status) status = make_integrator(sim);
   sim->prepared = sim->derived = !status;
   sim->start = sim->time;
@@ -639,6 +650,7 @@ void sph_sim_prepare_undo(sph_sim *sim)
   sph_neighbors_free(sim->neighbors);
   for (int g = 0; g < sim->groups; g++) {
     sph_memory_free(sim->sorted[g].record);
+    sph_memory_free(sim->sorted[g].single);
     sph_memory_free(sim->sorted[g].phi);
     sph_memory_free(sim->sorted[g].shifted);
     sph_memory_free(sim->sorted[g].shock);

@@ -14,6 +14,7 @@
 #include "reset_loops.h"
 #include "sim_mirror.h"
 #include "sim_rhs.h"
+#include "sim_single.h"
 #include "sphode/correction.h"
 
 static const double LEAST_SPREAD = 0.02;
@@ -91,7 +92,10 @@ int sph_sim_reset_check(sph_sim *sim)
                           "density-reset: density is a sum over neighbours already (term "
                           "summation): leave one of them out");
   for (int k = 0; k < sim->modifiers; k++)
-    if (sim->modifier[k].modifier.modify == modify) return sph_sim_mirror_one_liquid(sim);
+    if (sim->modifier[k].modifier.modify == modify) {
+      const int status = sph_sim_single_refuse(sim, "density resets are of double precision alone");
+      return status ? status : sph_sim_mirror_one_liquid(sim);
+    }
   return SPH_OK;
 }
 

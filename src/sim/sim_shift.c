@@ -38,6 +38,7 @@ static shift_constants constants_of(const sph_sim *sim)
                            .L = L,
                            .L2 = L * L,
                            .transport = transport,
+                           .kernel = sim->kernel_number,
                            .surface = !sim->prepared || keeps_surface(sim),
                            .corrected = (sim->loop_terms & SPH_CONTINUITY_CORRECTED) != 0};
 }

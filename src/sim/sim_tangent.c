@@ -1,5 +1,6 @@
 /* A tangent of f: its phases, each followed by its derivative. */
 #include "sim_tangent.h"
+#include "sim_single.h"
 
 #include <math.h>
 #include <string.h>
@@ -70,6 +71,7 @@ sph_tangent *sph_sim_tangent_get(sph_sim *sim)
 {
   if (sim->error.status) return NULL;
   if (sim->tangent) return sim->tangent;
+  if (sph_sim_single_refuse(sim, "derivatives are those of double precision alone")) return NULL;
   if (sim->loop_terms & SPH_CORRECTED) {
     sph_sim_fail(sim, SPH_ERR_ARGUMENT,
                  "no derivatives of terms whose gradients are corrected: right is correction none");

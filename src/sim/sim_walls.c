@@ -259,7 +259,7 @@ static void extrapolate(sph_evaluation *e, int g)
   const fluid_constants k = sph_sim_walls_constants(sim, wall, e->t);
   sph_pair_function *loop =
       sph_wall_loop(sim->isa, sim->kernel_number, sim->dim, wall->boundary.rotation != NULL,
-                    sim->loop_terms & SPH_THERMAL ? 1 : 0);
+                    (sim->loop_terms & SPH_THERMAL) != 0);
   sph_sim_pairs_pack_positions(e, g);
   sph_sim_pairs_clear(sim, g, SPH_WALL_SUMS);
   for (int f = 0; f < sim->groups; f++)

@@ -10,14 +10,16 @@
 /* Constant sets of terms with a loop of their own, looked up by exact mask; "any" and "all" read it
  * at run time, "any" all but the rare terms, which would cost the others a sixth of their rate.
  * X(kernel, dim, name, mask, slots, sums) */
-#define SPH_FLUID_SETS(X, kernel, dim)                                                           \
+#define SPH_FLUID_SETS(X, kernel, dim)                                                    \
+  X(kernel, dim, molteni_thermal, SPH_WATER | SPH_ARTIFICIAL | SPH_MOLTENI | SPH_THERMAL, \
+    3 * dim + 6, SPH_FLUID_SUMS)                                                          \
+  SPH_FLUID_SETS_COMMON(X, kernel, dim)                                                   \
+  X(kernel, dim, all, k->terms, 3 * dim + 9 + dim * (dim + 1) / 2, SPH_FLUID_SUMS_ALL)
+#define SPH_FLUID_SETS_COMMON(X, kernel, dim)                                                    \
   X(kernel, dim, molteni, SPH_WATER | SPH_ARTIFICIAL | SPH_MOLTENI, 2 * dim + 4, SPH_FLUID_SUMS) \
-  X(kernel, dim, molteni_thermal, SPH_WATER | SPH_ARTIFICIAL | SPH_MOLTENI | SPH_THERMAL,        \
-    3 * dim + 6, SPH_FLUID_SUMS)                                                                 \
   X(kernel, dim, antuono, SPH_WATER | SPH_ARTIFICIAL | SPH_ANTUONO, 3 * dim + 4, SPH_FLUID_SUMS) \
   X(kernel, dim, antuono_wall, SPH_WATER | SPH_ANTUONO | SPH_WALL, 3 * dim + 4, SPH_FLUID_SUMS)  \
-  X(kernel, dim, any, k->terms & ~(unsigned)SPH_RARE, 3 * dim + 5, SPH_FLUID_SUMS)               \
-  X(kernel, dim, all, k->terms, 3 * dim + 9 + dim * (dim + 1) / 2, SPH_FLUID_SUMS_ALL)
+  X(kernel, dim, any, k->terms & ~(unsigned)SPH_RARE, 3 * dim + 5, SPH_FLUID_SUMS)
 
 enum {
 #define SPH_FLUID_SET_ENUM(kernel, dim, name, mask, slots, sums) SPH_FLUID_SET_##name,

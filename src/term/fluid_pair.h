@@ -133,6 +133,28 @@ typedef struct fluid_constants {
 } fluid_constants;
 enum { SPH_FLUID_NUMBERS = (sizeof(fluid_constants) - sizeof(double)) / sizeof(vec_scalar) };
 
+/* The task as an instance takes it: in single precision with constants of its own. */
+typedef struct fluid_task_single {
+  sph_pair_task task;
+  fluid_constants constants;
+} fluid_task_single;
+
+BODY const sph_pair_task *fluid_task(const sph_pair_task *t, fluid_task_single *own)
+{
+#ifdef SPH_VEC_FLOAT
+  const double *from = (const double *)t->constants + 1; /* behind terms and kernel */
+  vec_scalar *to = &own->constants.inverse_h;
+  memcpy(&own->constants, t->constants, sizeof(double));
+  for (int n = 0; n < SPH_FLUID_NUMBERS; n++) to[n] = (vec_scalar)from[n];
+  own->task = *t;
+  own->task.constants = &own->constants;
+  return &own->task;
+#else
+  (void)own;
+  return t;
+#endif
+}
+
 typedef struct particle {
   vec x[3], v[3], rho, p, c, V, extra[3], u, T, phi, alpha, f;
 } particle;
@@ -180,8 +202,8 @@ BODY vec fluid_dot(int dim, const vec *a, const vec *b)
   return sum;
 }
 
-/* At least this: a particle with itself divides zero by it; the square of it is not zero. */
-BODY vec fluid_apart(vec a) { return v_max(a, v_set(1e-150)); }
+/* A particle with itself divides zero by it. */
+BODY vec fluid_apart(vec a) { return v_max(a, v_tiny()); }
 
 BODY pair fluid_pair_common(int dim, int kernel, unsigned terms, const fluid_constants *k,
                             const particle *i, const particle *j)

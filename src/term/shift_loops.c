@@ -1,11 +1,18 @@
 /* Instances of the loops of shifting, once per instruction set. */
 #include "shift_loops.h"
 
+/* The reference reads the kernel at run time: its instances are one to a compiler. */
+#if SPH_LANES == 1
+#define KERNEL_OF(unused, k) ((const shift_constants *)k)->kernel
+#else
+#define KERNEL_OF(kernel, k) kernel
+#endif
+
 #define SHIFT(pass, kernel, dim, slots, sums)                                                \
   BODY void body_##pass##_##kernel##_##dim(int d, const void *k, const vec *i, const vec *j, \
                                            vec *sum)                                         \
   {                                                                                          \
-    shift_##pass(d, kernel, k, i, j, sum);                                                   \
+    shift_##pass(d, KERNEL_OF(kernel, k), k, i, j, sum);                                     \
   }                                                                                          \
   static void pass##_##kernel##_##dim(const sph_pair_task *t, long b, long e)                \
   {                                                                                          \

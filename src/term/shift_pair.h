@@ -32,6 +32,7 @@ typedef struct shift_constants {
   int transport, surface;
   int corrected; /* the gradients of continuity are */
   int wall;      /* the source is one */
+  int kernel;    /* for loops that are not compiled for one */
 } shift_constants;
 
 /* A record: x v rho V dv normal flag; flag 1: at the surface.  The first pass reads it to V. */

@@ -1,11 +1,18 @@
 /* Instances of the loops of the switches, once per instruction set. */
 #include "switch_loops.h"
 
+/* The reference reads the kernel at run time: its instances are one to a compiler. */
+#if SPH_LANES == 1
+#define KERNEL_OF(unused, k) ((const fluid_constants *)k)->kernel
+#else
+#define KERNEL_OF(kernel, k) kernel
+#endif
+
 #define PASS(pass, slots, sums, kernel, dim)                                                 \
   BODY void body_##pass##_##kernel##_##dim(int d, const void *k, const vec *i, const vec *j, \
                                            vec *sum)                                         \
   {                                                                                          \
-    switch_##pass(d, kernel, k, i, j, sum);                                                  \
+    switch_##pass(d, KERNEL_OF(kernel, k), k, i, j, sum);                                    \
   }                                                                                          \
   static void pass##_##kernel##_##dim(const sph_pair_task *t, long b, long e)                \
   {                                                                                          \

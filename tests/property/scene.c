@@ -322,7 +322,8 @@ sph_sim *scene_sim(scene *s, scene_options options)
                      .threads = options.threads,
                      .skin = options.skin,
                      .search = options.neighbors,
-                     .isa = options.isa};
+                     .isa = options.isa,
+                     .precision = options.precision};
   for (int k = 0; k < o->dim; k++) {
     def.periodic[k] = o->periodic[k];
     def.length[k] = o->periodic[k] ? (double)o->length[k] : 0;

@@ -33,7 +33,7 @@ void scene_free(scene *s);
 /* The library's simulation of scene.o with its terms, and with these options (NULL, 0:
  * defaults). */
 typedef struct scene_options {
-  const char *isa, *neighbors;
+  const char *isa, *neighbors, *precision;
   int threads;
   double skin; /* [h] */
 } scene_options;

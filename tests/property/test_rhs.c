@@ -16,8 +16,8 @@
 #include "scene.h"
 
 /* Rounding: worst seen is told at the end of each test. */
-static const double tolerance = 1e-14;
-static double worst;
+static const double in_double = 1e-14, in_mixed = 2e-6;
+static double tolerance = in_double, worst;
 
 static void same(const char *what, const scene_def *def, long i, double found, real expected,
                  real size)
@@ -145,6 +145,43 @@ static void all_instruction_sets(void **state)
     for (int k = 0; k < ORACLE_KERNELS; k += quick_stride()) instruction_sets(dim, k);
 }
 
+/* Mixed precision, by each instruction set that has it: 24 bits a pair, positions in quanta of
+ * 2^-30 of the box. */
+static void check_mixed(const scene_def *def, int mix, int *tried)
+{
+  scene s;
+  scene_make(&s, def);
+  choose_terms(&s, mix);
+  oracle_evaluate(&s.o);
+  for (int isa = SPH_ISA_x86_64_v3; isa < SPH_ISA_COUNT; isa++) {
+    if (sph_cpu_isa(sph_cpu_isa_name(isa), NULL) != isa) continue;
+    sph_sim *sim =
+        scene_sim(&s, (scene_options){.isa = sph_cpu_isa_name(isa), .precision = "mixed"});
+    scene_rates rates = scene_evaluate(&s, sim);
+    compare(&s, def, &rates);
+    scene_rates_free(&rates);
+    sph_sim_free(sim);
+    ++*tried;
+  }
+  scene_free(&s);
+}
+
+static void mixed_precision(void **state)
+{
+  (void)state;
+  int tried = 0;
+  worst = 0, tolerance = in_mixed;
+  for (int thermal = 0; thermal <= 1; thermal++)
+    for (int walls = 0; walls <= 2; walls += 2)
+      for (int dim = 1; dim <= 3; dim++)
+        for (int k = 0; k < 2 * ORACLE_KERNELS; k += quick_stride()) {
+          scene_def def = choose_scene(dim, k, walls, thermal);
+          check_mixed(&def, k, &tried);
+        }
+  print_message("# %d scenes, largest error: %.2g of size\n", tried, worst);
+  tolerance = in_double;
+}
+
 /* What the library shows after a step, for the oracle. */
 static void read_back(scene *s, const char *name, int g, sph_sim *sim)
 {
@@ -236,6 +273,21 @@ static void any_threads(void **state)
   }
 }
 
+static void any_threads_mixed(void **state)
+{
+  (void)state;
+  const int isa = sph_cpu_isa(NULL, NULL);
+  for (int dim = 2; dim <= 3 && sph_cpu_isa_mixed(isa, NULL) >= 0; dim++) {
+    scene s;
+    large_scene(&s, dim);
+    const scene_options options[] = {{.threads = 1, .precision = "mixed"},
+                                     {.threads = 2, .precision = "mixed"},
+                                     {.threads = 3, .precision = "mixed"}};
+    same_bits(&s, options, 3, "threads, mixed");
+    scene_free(&s);
+  }
+}
+
 static void any_skin(void **state)
 {
   (void)state;
@@ -267,8 +319,10 @@ int main(void)
       cmocka_unit_test(liquids_between_walls),
       cmocka_unit_test(gases_between_walls),
       cmocka_unit_test(all_instruction_sets),
+      cmocka_unit_test(mixed_precision),
       cmocka_unit_test(old_lists),
       cmocka_unit_test(any_threads),
+      cmocka_unit_test(any_threads_mixed),
       cmocka_unit_test(any_skin),
       cmocka_unit_test(any_search),
   };

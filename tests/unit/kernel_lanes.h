@@ -12,6 +12,6 @@ typedef void kernel_roots(const double *a, double *root);
 #define KERNEL_LANES_DECLARE(isa, loops) \
   kernel_lanes kernel_lanes_##loops;     \
   kernel_roots kernel_roots_##loops;
-SPH_ISA_BUILT_FUSED(KERNEL_LANES_DECLARE)
+SPH_ISA_BUILT_DOUBLE(KERNEL_LANES_DECLARE, x86_64_v4_newton)
 
 #endif

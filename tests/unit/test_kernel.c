@@ -310,7 +310,7 @@ static void roots(void **state)
   (void)state;
   static kernel_roots *const roots_of[SPH_ISA_COUNT] = {
 #define LANES(isa, loops) [SPH_ISA_##isa] = kernel_roots_##loops,
-      SPH_ISA_BUILT_FUSED(LANES)};
+      SPH_ISA_BUILT_DOUBLE(LANES, x86_64_v4_newton)};
 #undef LANES
   gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
   for (int isa = 0; isa < SPH_ISA_COUNT; isa++) {
@@ -337,7 +337,7 @@ static void at_random(void **state)
   (void)state;
   static kernel_lanes *const lanes[SPH_ISA_COUNT] = {
 #define LANES(isa, loops) [SPH_ISA_##isa] = kernel_lanes_##loops,
-      SPH_ISA_BUILT_FUSED(LANES)};
+      SPH_ISA_BUILT_DOUBLE(LANES, x86_64_v4_newton)};
 #undef LANES
   gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
   int tried = 0;
