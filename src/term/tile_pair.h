@@ -282,16 +282,16 @@ typedef struct tile_work {
   tile_rows rows;
 } tile_work;
 
-static __attribute__((noinline, noclone, unused)) void tile_begin(int dim, const sph_pair_task *t,
-                                                                  tile_work *w)
+static __attribute__((noinline, unused)) void tile_begin(int dim, const sph_pair_task *t,
+                                                         tile_work *w)
 {
   w->tile = tile_open(dim, t->constants, &w->rows);
   w->shift = t->shift;
   tile_clear(&w->rows);
 }
 
-static __attribute__((noinline, noclone, unused)) void
-tile_begin_block(int dim, const sph_pair_task *t, long b, tile_work *w)
+static __attribute__((noinline, unused)) void tile_begin_block(int dim, const sph_pair_task *t,
+                                                               long b, tile_work *w)
 {
   const tile_constants *k = t->constants;
   const double *record = t->target + b * SPH_LANES * t->target_stride;
