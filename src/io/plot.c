@@ -54,7 +54,7 @@ static int draw_sheet(const sph_sheet_def *def, const long *number, const char *
 
 int sph_plot_sheet(const sph_sheet_def *def, const char *png, sph_error *error)
 {
-  long *number = NULL, chosen[FRAMES_MAX];
+  long *number = NULL, chosen[FRAMES_MAX] = {0};
   if (!def) return sph_error_set(error, SPH_ERR_ARGUMENT, "a sheet of no definition (NULL)");
   sph_sheet_def sheet = *def;
   if (sheet.n < 1 || sheet.n > FRAMES_MAX)
