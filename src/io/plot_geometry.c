@@ -83,7 +83,8 @@ static void add_head(const view *v, const char *title, sph_text *script)
       script,
       " noenhanced\nset xlabel '%c [m]' offset 0, 0.4\nset ylabel '%s'\nset size ratio -1\nset key "
       "outside "
-      "bottom center horizontal Left reverse samplen 1 noenhanced\nset style fill solid noborder\n",
+      "bottom center horizontal Left reverse samplen 1 noenhanced height 2\nset style fill solid "
+      "noborder\n",
       "xyz"[v->across],
       v -> dim == 1     ? ""
            : v->up == 1 ? "y [m]"
