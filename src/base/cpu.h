@@ -29,7 +29,8 @@ enum sph_isa {
  *   SPH_ISA_BUILT        loops of doubles, for all that is simulated
  *   SPH_ISA_BUILT_LISTS  those that look at positions alone: of mixed precision, too
  *   SPH_ISA_BUILT_FUSED  those that most time goes to: roots by Newton's steps (simd.h) have their
- *                        own, mixed precision has floats (single_loop.h) */
+ *                        own, mixed precision has floats (single_loop.h);
+ *   SPH_ISA_BUILT_WALLS  floats, too, but no roots of their own */
 #ifdef SPH_HAVE_X86_64_V2
 #define SPH_ISA_TWO_LANES "x86-64-v2"
 #define SPH_ISA_BUILT_TWO(X) X(x86_64_v2, x86_64_v2)
@@ -55,10 +56,12 @@ enum sph_isa {
   X(reference, reference) SPH_ISA_BUILT_TWO(X) SPH_ISA_BUILT_V3(X) SPH_ISA_BUILT_V4(X, newton)
 #define SPH_ISA_BUILT(X) SPH_ISA_BUILT_DOUBLE(X, x86_64_v4) SPH_ISA_BUILT_V4_MIXED(X, x86_64_v4)
 #define SPH_ISA_BUILT_LISTS(X) SPH_ISA_BUILT(X) SPH_ISA_BUILT_V3_MIXED(X, x86_64_v3_mixed)
-#define SPH_ISA_BUILT_FUSED(X)                \
-  SPH_ISA_BUILT_DOUBLE(X, x86_64_v4_newton)   \
+#define SPH_ISA_BUILT_HOT(X, newton)          \
+  SPH_ISA_BUILT_DOUBLE(X, newton)             \
   SPH_ISA_BUILT_V4_MIXED(X, x86_64_v4_single) \
   SPH_ISA_BUILT_V3_MIXED(X, x86_64_v3_single)
+#define SPH_ISA_BUILT_FUSED(X) SPH_ISA_BUILT_HOT(X, x86_64_v4_newton)
+#define SPH_ISA_BUILT_WALLS(X) SPH_ISA_BUILT_HOT(X, x86_64_v4)
 
 /* In a *_loops.c, compiled once per instruction set with SPH_ISA its suffix: the name of its
  * table. */

@@ -1,11 +1,11 @@
 #include "wall_loops.h"
 
 #define DECLARE(isa, loops) extern const sph_wall_table sph_wall_loops_##loops;
-SPH_ISA_BUILT_FUSED(DECLARE)
+SPH_ISA_BUILT_WALLS(DECLARE)
 
 static const sph_wall_table *const tables[SPH_ISA_COUNT] = {
 #define ROW(isa, loops) [SPH_ISA_##isa] = &sph_wall_loops_##loops,
-    SPH_ISA_BUILT_FUSED(ROW)
+    SPH_ISA_BUILT_WALLS(ROW)
 #undef ROW
 };
 
