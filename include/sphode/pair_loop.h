@@ -55,8 +55,8 @@ BODY void pair_prefetch(const double *behind, int slots)
   for (int line = 0; line <= SPH_LANES * slots / 8; line++) __builtin_prefetch(behind + 8 * line);
 }
 
-/* Slots of the records of a block, a vector each.  Called once a block; inlined, it would be half of
- * the code of a loop. */
+/* Slots of the records of a block, a vector each.  Called once a block; inlined, it would be half
+ * of the code of a loop. */
 static __attribute__((noinline, unused)) void pair_gather(const vec_number *record, long stride,
                                                           int slots, vec_number (*slot)[SPH_LANES])
 {

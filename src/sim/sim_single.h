@@ -12,8 +12,8 @@ int sph_sim_single_refuse(sph_sim *sim, const char *what);
 /* The quantum of positions, after lists were built; refuses what it would be too large for. */
 int sph_sim_single_range(sph_sim *sim);
 
-/* Slots first .. last - 1 of the records at sorted places begin .. end - 1 of group g, from those in
- * double. */
+/* Slots first .. last - 1 of the records at sorted places begin .. end - 1 of group g, from those
+ * in double. */
 void sph_sim_single_copy(const sph_sim *sim, int g, int first, int last, long begin, long end);
 /* All of group g, with what lies behind the last particle. */
 void sph_sim_single_pack(const sph_sim *sim, int g);
