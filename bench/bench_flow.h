@@ -8,8 +8,8 @@ typedef struct bench_flow {
   int dim;
   long across; /* particles along a side */
   int thermal;
-  const char *delta; /* NULL: none */
-  double support;    /* [dx] */
+  const char *delta;     /* NULL: none */
+  double support;        /* [dx] */
   const char *precision; /* NULL: double */
 } bench_flow;
 

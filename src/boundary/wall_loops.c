@@ -28,14 +28,16 @@ TURNING(3)
 #define RESTING(dim)                         \
   WALL(wall_##dim##_0, k->kernel, dim, 0, 0) \
   WALL(wall_##dim##_1, k->kernel, dim, 0, 1)
-    RESTING(1) RESTING(2) RESTING(3)
+RESTING(1)
+RESTING(2)
+RESTING(3)
 #define NAME(kernel, dim, thermal) wall_##dim##_##thermal
 #else
 #define RESTING(kernel, dim)                         \
   WALL(wall_##kernel##_##dim##_0, kernel, dim, 0, 0) \
   WALL(wall_##kernel##_##dim##_1, kernel, dim, 0, 1)
 #define KERNEL(kernel) RESTING(kernel, 1) RESTING(kernel, 2) RESTING(kernel, 3)
-    SPH_KERNEL_LIST(KERNEL)
+SPH_KERNEL_LIST(KERNEL)
 #define NAME(kernel, dim, thermal) wall_##kernel##_##dim##_##thermal
 #endif
 
@@ -45,4 +47,4 @@ TURNING(3)
         {wall_turning_##dim##_0, wall_turning_##dim##_1}, \
   }
 #define ROW(kernel) [kernel] = {NAMES(kernel, 1), NAMES(kernel, 2), NAMES(kernel, 3)},
-        const sph_wall_table SPH_ISA_NAME(sph_wall_loops) = {{SPH_KERNEL_LIST(ROW)}};
+const sph_wall_table SPH_ISA_NAME(sph_wall_loops) = {{SPH_KERNEL_LIST(ROW)}};
