@@ -38,8 +38,9 @@ typedef struct sph_sim_def {
   const char *isa; /* NULL: what the CPU has (or SPHODE_ISA); "reference": one lane, plain loops */
   /* "double" (NULL) or "mixed": pairs in single precision, eight at a time, all else in double.
    * Rates are within some 1e-6 of their terms.  Needs AVX2; knows continuity, pressure (c2, s),
-   * viscosity-artificial, delta (Molteni, Antuono), walls, mirrors, energies, body terms; no other
-   * pair terms, implicit parts, derivatives, density resets; tolerances from 1e-5. */
+   * viscosity-artificial, conductivity-artificial, delta (Molteni, Antuono), walls, mirrors,
+   * energies, body terms; no other pair terms, implicit parts, derivatives, density resets;
+   * tolerances from 1e-5. */
   const char *precision;
 } sph_sim_def;
 

@@ -17,20 +17,17 @@
                   thermal ? SPH_WALL_SUMS : SPH_WALL_SUMS_COLD);                            \
   }
 
-#define TURNING(dim)                                 \
-  WALL(wall_turning_##dim##_0, k->kernel, dim, 1, 0) \
-  WALL(wall_turning_##dim##_1, k->kernel, dim, 1, 1)
-TURNING(1)
-TURNING(2)
-TURNING(3)
+#define ANY_KERNEL(name, dim, turns)               \
+  WALL(name##_##dim##_0, k->kernel, dim, turns, 0) \
+  WALL(name##_##dim##_1, k->kernel, dim, turns, 1)
+ANY_KERNEL(wall_turning, 1, 1)
+ANY_KERNEL(wall_turning, 2, 1)
+ANY_KERNEL(wall_turning, 3, 1)
 
 #if SPH_LANES == 1
-#define RESTING(dim)                         \
-  WALL(wall_##dim##_0, k->kernel, dim, 0, 0) \
-  WALL(wall_##dim##_1, k->kernel, dim, 0, 1)
-RESTING(1)
-RESTING(2)
-RESTING(3)
+ANY_KERNEL(wall, 1, 0)
+ANY_KERNEL(wall, 2, 0)
+ANY_KERNEL(wall, 3, 0)
 #define NAME(kernel, dim, thermal) wall_##dim##_##thermal
 #else
 #define RESTING(kernel, dim)                         \

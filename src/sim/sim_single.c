@@ -52,9 +52,9 @@ static const char *rare_term(unsigned bits)
 
 static const char *unfit(const sph_sim *sim)
 {
-  const sph_term_set *terms = &sim->terms;
-  if (rare_term(sim->loop_terms)) return rare_term(sim->loop_terms);
-  if (terms->summed) return "summation";
+  const char *rare = rare_term(sim->loop_terms);
+  if (rare) return rare;
+  if (sim->terms.summed) return "summation";
   if (sim->part[SPH_WHOLE].tiles) return "scalars that diffuse and pair terms of your own";
   for (int g = 0; g < sim->groups; g++)
     if (sim->group[g]->eos.dust) return "dust";
@@ -122,7 +122,7 @@ int sph_sim_single_range(sph_sim *sim)
   char what[200];
   snprintf(what, sizeof what,
            "particles are up to %.3g m apart, positions would be rounded by %.1g h", largest,
-           sim->quantum / sim->h);
+           0.5 * sim->quantum / sim->h);
   return sph_sim_single_refuse(sim, what);
 }
 
