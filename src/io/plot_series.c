@@ -64,7 +64,7 @@ static void add_head(picture *p)
   sph_text_add(&p->script,
                "set grid lc rgb '#e4e4e4' lt 1\nset border 3\n"
                "set key %s horizontal Left reverse noenhanced %s\n",
-               p->panels > 1 ? "at graph 0, 1 left bottom" : "outside bottom center",
+               p->panels > 1 ? "at graph 0, 1.02 left bottom" : "outside bottom center",
                p->panels > 1 ? "samplen 2" : "spacing 1.3 height 2");
   if (def->title) {
     sph_text_add(&p->script, "set title ");
