@@ -35,7 +35,7 @@ python() { python3 -c 'import ast, sys; ast.parse(open(sys.argv[1]).read())' pac
 changelog() { dpkg-parsechangelog -l packaging/debian/changelog -S Version | grep -E '^[0-9.]+-1$'; }
 abi_numbers() { # current:revision:age, from which the file names follow
   local c r a
-  IFS=: read -r c r a < <(sed -n 's/.*SPH_LIBRARY_VERSION\], \[\(.*\)\])/\1/p' "$SRCDIR/configure.ac")
+  IFS=: read -r c r a < <(sed -n 's/.*SPH_LIBRARY_VERSION\], \[\([0-9:]*\)\].*/\1/p' "$SRCDIR/configure.ac")
   grep -q "libsphode\.so\.$((c - a))\.$a\.$r" "$BUILDDIR/libsphode.la" || ! grep -q 'libsphode\.so' "$BUILDDIR/libsphode.la"
 }
 
